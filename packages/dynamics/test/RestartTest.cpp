@@ -81,6 +81,23 @@ TEST(Restart, withScaledMassesHasTheBitsOfTheStraightRun)
       40, {1, 5, 18, 39});
 }
 
+TEST(Restart, withSubstepsHasTheBitsOfTheStraightRun)
+{
+  expectSameBits(
+      [](const Comm& comm, const std::string& method)
+      {
+        Mesh mesh = twoCubes();
+        for (Vec3& x : mesh.coordinates)
+          if (x.z == 0.5)
+            x.z = 0.93; // thin elements in contact
+        Model model = rockModel(mesh, comm, 0.25, method);
+        model.blocks[1].velocity = {0.5, 0.25, -1};
+        model.time.subcyclingLevels = 4;
+        return model;
+      },
+      50, {1, 5, 18, 19, 20, 21, 49});
+}
+
 TEST(Restart, givesPlanesToThosePairsThatHadOne)
 {
   const Comm comm;

@@ -201,12 +201,9 @@ void Contact::beginSubsteps(Real lookAhead)
 
 void Contact::listSubsteppedNear()
 {
-  substepped_.listNear(planes_.slots().faces,
-                       [&](int slot)
-                       {
-                         return !distances_.isFar(slot) ||
-                                !planes_.carriesNothing(std::size_t(slot));
-                       });
+  substepped_.listNear(
+      planes_.slots().faces, [&](int slot)
+      { return !distances_.isFar(slot) || !planes_.carriesNothing(std::size_t(slot)); });
 }
 
 void Contact::updateSubstepped(const ConstNodeVectors& x, const Substep& step)

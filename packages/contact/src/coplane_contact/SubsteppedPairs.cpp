@@ -57,8 +57,7 @@ void SubsteppedPairs::list(const SlotTable& slots, const std::vector<Face>& face
   };
   forEachCorner([&](int node, std::int32_t) { nodes_.push_back(node); });
   nodes_ = sortedOnce(std::move(nodes_));
-  facesOfNode_ = {nodes_.size(), [&](const auto& visit)
-                  {
+  facesOfNode_ = {nodes_.size(), [&](const auto& visit) {
                     forEachCorner([&](int node, std::int32_t entry)
                                   { visit(placeOf(nodes_, node), entry); });
                   }};

@@ -51,17 +51,18 @@ public:
   /// Sum of m / dt^2 over the elements around an owned node that deform: m their mass there, dt
   /// their stable step [kg/s^2].
   Real massOverSquaredSteps(int node) const;
-  /// Calls f(node) for all nodes of the elements around an owned node that deform.
+  /// Calls f(block, element) for the elements around an owned node that deform.
   template <class F>
-  void forEachNodeAround(int node, F&& f) const
+  void forEachAround(int node, F&& f) const
   {
-    forEachAround(node,
-                  [&](std::size_t b, int e)
-                  {
-                    const auto connectivity = blocks_[b].connectivity();
-                    for (std::size_t c = 0; c < connectivity.extent(1); ++c)
-                      f(connectivity(e, c));
-                  });
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+    {
+      if (isRigid(b))
+        continue;
+      const int corners = topology(blocks_[b].type()).nodes;
+      for (const int entry : gathers_[b][node])
+        f(b, entry / corners);
+    }
   }
   /// The lowest id among those with that step.
   GlobalId limitingElement(const RankMesh& mesh, int node) const;
@@ -81,19 +82,6 @@ private:
   static Gather gatherOf(const RankMesh::Block& part, int ownedNodes);
   ConstArray<Real> nodalDilatation(std::size_t block, const NodalState& state,
                                    const NodeLayout& layout, Real dt, WorkTimes& work);
-  /// Calls f(block, element) for the elements around an owned node that deform.
-  template <class F>
-  void forEachAround(int node, F&& f) const
-  {
-    for (std::size_t b = 0; b < blocks_.size(); ++b)
-    {
-      if (isRigid(b))
-        continue;
-      const int corners = topology(blocks_[b].type()).nodes;
-      for (const int entry : gathers_[b][node])
-        f(b, entry / corners);
-    }
-  }
 
   std::vector<ElementBlock> blocks_; ///< in the order of the mesh file
   std::vector<Gather> gathers_;

@@ -127,7 +127,7 @@ Momenta Ledger::momenta(const Parts& parts) const
   const auto addNode = [&](ExactSums& sums, std::size_t node)
   {
     const int n = int(node);
-    const Vec3 p = state.mass(n) * at(state.v, n);
+    const Vec3 p = state.mass(n) * at(state.v, n) + at(state.underWay, n);
     const Vec3 l = cross(at(state.x, n), p);
     const bool isOwn = !parts.motion.followsBody(n);
     for (int c = 0; c < 3; ++c)

@@ -65,7 +65,7 @@ struct TimeOptions
   Real stepFactor = 0.8;
   std::optional<Real> maximumStep, fixedStep; ///< [s]
   std::optional<MassScalingOptions> massScaling;
-  int subcyclingLevels = 1; ///< a cycle has at most 2^(levels - 1) steps (Subcycling.hpp)
+  int subcyclingLevels = 1;        ///< a cycle has at most 2^(levels - 1) steps (Subcycling.hpp)
   Real energyTolerance = 0.1;      ///< fraction of the energy in play
   Real contactGainTolerance = 0.5; ///< the same, of what contact may gain
   bool endAtRest = false;          ///< the end has come when relaxation has found the state of rest

@@ -14,8 +14,10 @@ NodalState::NodalState(const RankMesh& mesh)
       dampingWork("dampingWork", mesh.ownedNodes),
       localDampingWork("localDampingWork", mesh.ownedNodes),
       totalWork("totalWork", mesh.ownedNodes),
-      contactStiffness("contactStiffness", mesh.ownedNodes), addedMass("addedMass", mesh.ownedNodes),
-      substeps("substeps", mesh.nodes())
+      contactStiffness("contactStiffness", mesh.ownedNodes),
+      addedMass("addedMass", mesh.ownedNodes), substeps("substeps", mesh.nodes()),
+      steadyMean("steadyMean", mesh.ownedNodes), steadyForce("steadyForce", mesh.ownedNodes),
+      underWay("underWay", mesh.ownedNodes)
 {
   Kokkos::deep_copy(substeps, 1.0);
   for (int n = 0; n < mesh.nodes(); ++n)

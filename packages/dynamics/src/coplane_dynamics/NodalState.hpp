@@ -40,6 +40,12 @@ struct NodalState
   /// That elements and planes at a node make in a cycle: 1, or more with time.subcycling; all nodes
   /// of the layout [-].
   Array<Real> substeps;
+  /// What acts on substepped nodes once in a cycle, smoothed in time once and twice: they have the
+  /// latter in all of their substeps [N].
+  NodeVectors steadyMean, steadyForce;
+  /// Part of the momentum that it gives to them until the middle of the cycle, but comes later [N
+  /// s].
+  NodeVectors underWay;
 
   explicit NodalState(const RankMesh& mesh);
   int owned() const { return int(force.extent(0)); }

@@ -15,7 +15,7 @@ namespace
 {
 constexpr std::int64_t energyCheckEvery = 100; // cycles; what contact gains in every one
 /// Step by the motion of faces over that by elements when faces are about as fast as waves.
-constexpr std::int64_t regroupEvery = 20;      ///< cycles; what is substepped
+constexpr std::int64_t regroupEvery = 20; ///< cycles; what is substepped
 constexpr Real fastBesideWaves = 0.35;
 constexpr Real mostCycles = 1e15; // some centuries
 /// Default skin over the smallest face [-]; the larger one where searches come by motion only.
@@ -49,7 +49,8 @@ Solver::Solver(Model model, const Comm& comm)
     : model_(std::move(model)), comm_(&comm), layout_(comm, model_.mesh), state_(model_.mesh),
       elements_(model_.mesh, model_.blocks, model_.viscosity, state_),
       step_(model_.time, std::max(model_.contact.dampNormal, model_.contact.dampShear)),
-      subcycling_(model_.time), searches_(model_.searchEvery), relaxation_(model_.conditions.relaxation)
+      subcycling_(model_.time), searches_(model_.searchEvery),
+      relaxation_(model_.conditions.relaxation)
 {
   attempt([&] { elements_.setInitialStress(model_); });
   attempt([&] { startVelocities(); });
@@ -178,7 +179,10 @@ void Solver::prepare()
 void Solver::advance()
 {
   const Real dt = clock_.nextStep;
-  subcycling_.begin(dt, lookAhead(), parts(), state_, elements_, contact_.get());
+  {
+    const WorkWatch watch(work_.planes);
+    subcycling_.begin(dt, lookAhead(), parts(), state_, elements_, contact_.get());
+  }
   drift(dt);
   refresh();
   findForces(dt);
@@ -439,8 +443,8 @@ Real Solver::chooseStep(Real stable, const MotionLimits& limits)
   const Real factor = model_.time.stepFactor;
   bool regroup = std::exchange(regroupIsDue_, false) || clock_.cycle % regroupEvery == 0 ||
                  factor * stable < clock_.nextStep;
-  const Real safe = regroup ? subcycling_.plan(parts(), step_)
-                            : std::max(stable, subcycling_.planned());
+  const Real safe =
+      regroup ? subcycling_.plan(parts(), step_) : std::max(stable, subcycling_.planned());
   Real step = step_.choose(safe, limits, searches_.relativeSpeed(), parts());
   if (!regroup && step > factor * stable)
   {

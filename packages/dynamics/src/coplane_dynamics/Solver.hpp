@@ -176,7 +176,7 @@ private:
   /// The step of the next cycle, the same on all ranks, and their requests; nothing when an element
   /// or a force has failed, or the step is far too small. Collective.
   std::optional<Real> agreeOnNextStep(const Requests& mine);
-  void agreeOnMasses(); ///< collective
+  void agreeOnMasses();                                     ///< collective
   Real chooseStep(Real stable, const MotionLimits& limits); ///< collective
   void kick(Real step);
   void relax(Real step);
@@ -273,7 +273,7 @@ private:
   Ledger ledger_;
   BalanceWatch watch_;
   bool regroupIsDue_ = true;  ///< what is substepped, whatever the step; the same on all ranks
-  bool massesRaised_ = false;         ///< on this rank, since ranks agreed on a step
+  bool massesRaised_ = false; ///< on this rank, since ranks agreed on a step
   bool contactMayHaveGained_ = false; ///< in this cycle, on some rank: the same on all
   bool failed_ = false;               ///< the same on all ranks
   std::optional<Error> trouble_;      ///< of this rank

@@ -41,6 +41,9 @@ NodeColumns nodeColumns(const NodalState& state)
   vector("at_search", state.atSearch);
   vector("velocity_at_search", state.velocityAtSearch);
   vector("at_passing", state.atPassing);
+  vector("steady_mean", state.steadyMean);
+  vector("steady_force", state.steadyForce);
+  vector("under_way", state.underWay);
   const auto scalar = [&](const char* name, const Array<Real>& values)
   {
     columns.names.push_back(name);
@@ -150,8 +153,7 @@ void Solver::restore(const StateSource& in)
     Kokkos::deep_copy(ownedOf(velocity), state_.velocityAtSearch);
     layout_.refresh(atSearch, velocity);
     contact_->restoreDistances(atSearch, velocity, searches_.ahead());
-    contact_->followFaces(state_.x, state_.v, searches_.timeSince(clock_.time),
-                          lookAhead());
+    contact_->followFaces(state_.x, state_.v, searches_.timeSince(clock_.time), lookAhead());
     contact_->findFaces(state_.x, state_.v);
   }
   subcycling_.restore(parts(), state_, contact_.get());

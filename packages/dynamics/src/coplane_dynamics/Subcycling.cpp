@@ -11,9 +11,9 @@ namespace
 /// What is below this many steps of a cycle is substepped, so that it may be crushed further before
 /// it limits the cycle.
 constexpr Real margin = 1.15;
-/// What a step of a node below the step of the cycle costs, over what a node costs in a cycle: its
-/// neighbours are substepped with it.
-constexpr Real costOfSubstep = 4;
+/// What a substep of a node costs over what a node costs in a cycle: those that are substepped are
+/// in contact more often than others.
+constexpr Real costOfSubstep = 1.5;
 constexpr int perLevel = 4; ///< lengths of a cycle that plan() chooses from, between powers of two
 constexpr Real roundOff = 1e-12;
 
@@ -22,6 +22,15 @@ std::vector<int> sortedOnce(std::vector<int> numbers)
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   return numbers;
+}
+
+/// One step of a smoothing over some thirty cycles: two in a row follow waves and resonances so
+/// little that these gain less than 1e-5 in a cycle without any damping, and a state of rest is
+/// found in a hundred.
+Vec3 smoothed(const Vec3& mean, const Vec3& value)
+{
+  constexpr Real follow = 1.0 / 300;
+  return mean + follow * (value - mean);
 }
 
 void clear(const std::vector<int>& nodes, const NodeVectors& values)
@@ -74,7 +83,7 @@ void Subcycling::begin(Real dt, Real lookAhead, const Parts& parts, NodalState& 
     if (contact)
       contact->updateSubstepped(state.x, {last_, step});
     sumForces(contact, forces_);
-    kick(step, state);
+    kick(step, parts.model.axisymmetric(), state);
   }
   drift();
   for (std::size_t i = 0; i < nodes_.size(); ++i)
@@ -134,19 +143,24 @@ void Subcycling::findHolds(const Parts& parts, Real middle)
 }
 
 /// In the middle of a cycle.
-void Subcycling::kick(Real dt, NodalState& state)
+void Subcycling::kick(Real dt, bool axisymmetric, NodalState& state)
 {
   for (std::size_t i = 0; i < nodes_.size(); ++i)
   {
     const int n = nodes_[i];
     if (!(state.mass(n) > 0))
       continue;
-    const Vec3 force = at(forces_, n), before = at(last_, n);
+    const Vec3 force = at(forces_, n) + at(state.steadyForce, n), before = at(last_, n);
     Vec3 free = force;
     for (const Vec3& direction : holds_[i])
       free -= dot(direction, free) * direction;
+    Vec3 after = before + (dt / state.mass(n)) * free;
+    if (axisymmetric && after.x < -state.x(n, 0) / dt) // comes to the axis and no further
+    {
+      free.x += state.mass(n) / dt * (-state.x(n, 0) / dt - after.x);
+      after.x = -state.x(n, 0) / dt;
+    }
     const Vec3 held = free - force;
-    const Vec3 after = before + (dt / state.mass(n)) * free;
     const Vec3 path = (0.5 * dt) * (before + after);
     set(last_, n, after);
     set(reactionImpulse_, n, at(reactionImpulse_, n) + dt * held);
@@ -190,90 +204,130 @@ void Subcycling::endMotion(NodalState& state)
 {
   for (const int n : moved_)
     set(state.v, n, at(last_, n));
-  moved_.clear();
 }
 
-bool Subcycling::isIneligible(const Parts& parts, int node, const Array<Real>& held) const
+Array<Real> Subcycling::leastAround(const Parts& parts, const Array<Real>& ofNodes)
 {
-  bool any = held(node) > 0;
-  parts.elements.forEachNodeAround(node, [&](int other) { any = any || held(other) > 0; });
-  return any;
+  std::vector<Array<Real>> ofElements;
+  for (std::size_t b = 0; b < parts.blocks().size(); ++b)
+  {
+    const auto connectivity = parts.blocks()[b].connectivity();
+    const Array<Real> least("coplane::dynamics::leastOfElements",
+                            std::size_t(parts.blocks()[b].count()));
+    parallelFor(
+        "coplane::dynamics::leastOfElements", int(least.extent(0)), KOKKOS_LAMBDA(const int e) {
+          Real lowest = infinity;
+          for (int c = 0; c < int(connectivity.extent(1)); ++c)
+            lowest = std::min(lowest, ofNodes(connectivity(e, c)));
+          least(e) = lowest;
+        });
+    ofElements.push_back(least);
+  }
+  const Array<Real> around("coplane::dynamics::leastAround", std::size_t(parts.layout.owned()));
+  parallelFor("coplane::dynamics::leastAround", parts.layout.owned(),
+              [&](const int n)
+              {
+                around(n) = ofNodes(n);
+                parts.elements.forEachAround(n,
+                                             [&](std::size_t b, int e) {
+                                               around(n) = std::min(around(n), ofElements[b](e));
+                                             });
+              });
+  return around;
 }
 
-Real Subcycling::plan(const Parts& parts, const TimeStep& step)
+/// Nodes that may be substepped: rigid bodies and lines move once in a cycle, and nodal pressures
+/// belong to all elements around.
+void Subcycling::findEligible(const Parts& parts)
 {
-  TimedRegion region("coplane::dynamics::subcycling");
   const int owned = parts.layout.owned();
-  steps_.assign(std::size_t(owned), infinity);
   eligible_.assign(std::size_t(owned), 1);
+  const bool nodalPressure = std::any_of(
+      parts.blocks().begin(), parts.blocks().end(),
+      [](const ElementBlock& block) { return block.options().form == ElementForm::NodalPressure; });
+  if (!nodalPressure && parts.bodies().count() == 0 && parts.lines.empty())
+    return;
+  const Array<Real> free("coplane::dynamics::free", std::size_t(parts.layout.size()));
   for (int n = 0; n < owned; ++n)
-    if (parts.state.mass(n) > 0 && !parts.motion.followsBody(n))
-      steps_[std::size_t(n)] = step.nodeStep(parts, n);
-  // Rigid bodies move once in a cycle, and nodal pressures belong to all elements around.
-  Array<Real> held("coplane::dynamics::held", std::size_t(parts.layout.size()));
-  for (int n = 0; n < owned; ++n)
-    held(n) = parts.motion.followsBody(n);
+    free(n) = !parts.motion.followsBody(n) && !(parts.lines.stiffnessAt(n) > 0);
   for (std::size_t b = 0; b < parts.blocks().size(); ++b)
     if (parts.blocks()[b].options().form == ElementForm::NodalPressure)
       for (const int n : parts.mesh().blocks[b].connectivity)
-        held(n) = 1;
-  parts.layout.refresh(held);
+        free(n) = 0;
+  parts.layout.refresh(free);
+  const Array<Real> allAround = leastAround(parts, free);
   for (int n = 0; n < owned; ++n)
-    if (isIneligible(parts, n, held))
-      eligible_[std::size_t(n)] = 0;
+    eligible_[std::size_t(n)] = allAround(n) > 0;
   if (parts.contact)
     parts.contact->forEachPair(
         [&](const Face& a, const Face& b)
         {
-          const auto holds = [&](const Face& face)
+          const auto isFree = [&](const Face& face)
           {
-            return face.rigid || std::any_of(face.nodes, face.nodes + face.count,
-                                             [&](int n) { return held(n) > 0; });
+            return !face.rigid && std::all_of(face.nodes, face.nodes + face.count,
+                                              [&](int n) { return free(n) > 0; });
           };
-          if (!holds(a) && !holds(b))
+          if (isFree(a) && isFree(b))
             return;
           for (const Face* face : {&a, &b})
             for (int k = 0; k < face->count; ++k)
               if (face->nodes[k] < owned)
                 eligible_[std::size_t(face->nodes[k])] = 0;
         });
+}
+
+Real Subcycling::plan(const Parts& parts, const TimeStep& step)
+{
+  TimedRegion region("coplane::dynamics::subcycling");
+  const int owned = parts.layout.owned();
+  findEligible(parts);
+  const Array<Real> steps("coplane::dynamics::stepsOfNodes", std::size_t(parts.layout.size()));
+  parallelFor("coplane::dynamics::stepsOfNodes", owned,
+              [&](const int n)
+              {
+                steps(n) = parts.state.mass(n) > 0 && !parts.motion.followsBody(n)
+                               ? step.nodeStep(parts, n)
+                               : infinity;
+              });
+  steps_ = steps;
   std::vector<Real> bounds{infinity, step.stableOfBodies(parts)};
   for (int n = 0; n < owned; ++n)
-    bounds[eligible_[std::size_t(n)] ? 0 : 1] =
-        std::min(bounds[eligible_[std::size_t(n)] ? 0 : 1], steps_[std::size_t(n)]);
+  {
+    Real& bound = bounds[eligible_[std::size_t(n)] ? 0 : 1];
+    bound = std::min(bound, steps(n));
+  }
   parts.comm.min(bounds);
   leastEligible_ = bounds[0];
   // Lengths of a cycle to choose from.
   const int choices = perLevel * (options_.subcyclingLevels - 1) + 1;
   const auto length = [&](int choice)
   { return std::min(bounds[0] * std::exp2(Real(choice) / perLevel), bounds[1]); };
-  std::vector<std::int64_t> below(std::size_t(choices) + 1, 0); // the last one: all nodes
-  for (int n = 0; n < owned; ++n)
-  {
-    ++below.back();
-    for (int choice = 0; choice < choices; ++choice)
-      below[std::size_t(choice)] += eligible_[std::size_t(n)] != 0 &&
-                                    steps_[std::size_t(n)] < margin * length(choice);
-  }
-  parts.comm.sum(below);
   planned_ = length(0);
   if (!(planned_ > 0) || !(planned_ < infinity))
     return planned_;
+  parts.layout.refresh(steps);
+  const Array<Real> around = leastAround(parts, steps);
+  std::vector<std::int64_t> substepped(std::size_t(choices) + 1, 0); // the last one: all nodes
+  for (int n = 0; n < owned; ++n)
+  {
+    ++substepped.back();
+    if (eligible_[std::size_t(n)])
+      for (int choice = choices - 1; choice > 0 && around(n) < margin * length(choice); --choice)
+        ++substepped[std::size_t(choice)];
+  }
+  parts.comm.sum(substepped);
   Real leastWork = infinity;
   for (int choice = 0; choice < choices; ++choice)
   {
     const int substeps = 1 << ((choice + perLevel - 1) / perLevel);
     const Real work =
-        Real(below.back()) +
-        (substeps > 1 ? costOfSubstep * substeps * Real(below[std::size_t(choice)]) : 0);
+        Real(substepped.back()) + costOfSubstep * substeps * Real(substepped[std::size_t(choice)]);
     if (work / length(choice) < leastWork)
     {
       leastWork = work / length(choice);
       planned_ = length(choice);
     }
   }
-  if (std::getenv("SUBDBG"))
-    { std::fprintf(stderr, "cycle %lld least %g cap %g planned %g M %d nodes %zu:", (long long)parts.clock.cycle, bounds[0], bounds[1], planned_, count_, nodes_.size()); for (auto b : below) std::fprintf(stderr, " %lld", (long long)b); std::fprintf(stderr, "\n"); }
   return planned_;
 }
 
@@ -284,9 +338,7 @@ void Subcycling::regroup(Real step, const Parts& parts, NodalState& state, Conta
   countBefore_ = count_;
   nodesBefore_ = nodes_;
   if (count_ > 1)
-  {
     sumForces(contact, forcesBefore_);
-  }
   const Real stable = options_.stepFactor;
   count_ = 1;
   while (count_ < 1 << (options_.subcyclingLevels - 1) &&
@@ -294,8 +346,8 @@ void Subcycling::regroup(Real step, const Parts& parts, NodalState& state, Conta
     count_ *= 2;
   for (int n = 0; n < state.owned(); ++n)
   {
-    const bool substeps = count_ > 1 && eligible_[std::size_t(n)] != 0 &&
-                          stable * steps_[std::size_t(n)] < margin * step;
+    const bool substeps =
+        count_ > 1 && eligible_[std::size_t(n)] != 0 && stable * steps_(n) < margin * step;
     state.substeps(n) = substeps ? count_ : 1;
   }
   parts.layout.refresh(state.substeps);
@@ -388,26 +440,49 @@ void Subcycling::listGroups(const Parts& parts)
 void Subcycling::weigh(Real before, Real after, NodalState& state, const Contact* contact)
 {
   const bool isRegrouped = std::exchange(isRegrouped_, false);
+  const std::vector<int> moved = std::exchange(moved_, {});
   kick_ = 0.5 * (before + after);
   if (!isRegrouped)
   {
     countBefore_ = count_;
     nodesBefore_ = nodes_;
   }
-  // Of the half before and of the half after.
-  const auto takeOff = [&](const std::vector<int>& nodes, const NodeVectors& forces, Real dt,
-                           int count)
-  {
-    const Real share = 0.5 * dt * (1 - 1.0 / count) / kick_;
-    for (const int n : nodes)
-      set(state.force, n, at(state.force, n) - share * at(forces, n));
-  };
-  if (count_ > 1)
-    sumForces(contact, forces_);
+  if (count_ == 1 && countBefore_ == 1)
+    return;
+  sumForces(contact, forces_);
+  const NodeVectors forcesBefore = isRegrouped ? forcesBefore_ : forces_;
+  // Impulses of half a cycle that come in other substeps than the first or last.
+  const Real lateBefore = 0.5 * before * (1 - 1.0 / countBefore_),
+             lateAfter = 0.5 * after * (1 - 1.0 / count_);
+  std::vector<Vec3> slow;
+  for (const int n : nodes_)
+    slow.push_back(at(state.force, n) + at(state.external, n) - at(forces_, n));
+  const auto takeOff = [&](int n, Real impulse, const Vec3& force)
+  { set(state.force, n, at(state.force, n) - (impulse / kick_) * force); };
   if (countBefore_ > 1)
-    takeOff(nodesBefore_, isRegrouped ? forcesBefore_ : forces_, before, countBefore_);
-  if (count_ > 1)
-    takeOff(nodes_, forces_, after, count_);
+    for (const int n : nodesBefore_)
+      takeOff(n, lateBefore, at(forcesBefore, n));
+  std::vector<char> isMoved(std::size_t(state.owned()), 0);
+  for (const int n : moved)
+  {
+    isMoved[std::size_t(n)] = 1;
+    takeOff(n, lateBefore, at(state.steadyForce, n));
+    set(state.underWay, n, {});
+    if (placeOf_[std::size_t(n)] < 0)
+      for (const NodeVectors& steady : {state.steadyMean, state.steadyForce})
+        set(steady, n, {});
+  }
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+  {
+    const int n = nodes_[i];
+    const bool goesOn = isMoved[std::size_t(n)] != 0;
+    const Vec3 mean = goesOn ? smoothed(at(state.steadyMean, n), slow[i]) : slow[i],
+               steady = goesOn ? smoothed(at(state.steadyForce, n), mean) : slow[i];
+    set(state.steadyMean, n, mean);
+    set(state.steadyForce, n, steady);
+    set(state.underWay, n, lateAfter * steady);
+    takeOff(n, lateAfter, at(forces_, n) + steady);
+  }
 }
 
 Vec3 Subcycling::reaction(int node) const

@@ -19,6 +19,9 @@ namespace coplane
 /// steps, in which every force acts as an impulse at its own instants: that of an element or plane
 /// that is substepped at the end of each of its steps, any other at the end of cycles. So momentum
 /// is exact. A force counts in the kick by the steps before and after it, half of each.
+///
+/// Nodes that are held in balance by forces of both kinds would swing within each cycle. So what is
+/// steady of the others is taken over by all substeps, and only the rest acts at the end of cycles.
 class Subcycling
 {
 public:
@@ -83,10 +86,12 @@ private:
   };
   void list(const Parts& parts, Contact* contact);
   void listGroups(const Parts& parts);
-  bool isIneligible(const Parts& parts, int node, const Array<Real>& held) const;
+  /// By owned node: the least of all nodes of the elements around it. @param ofNodes of the layout
+  static Array<Real> leastAround(const Parts& parts, const Array<Real>& ofNodes);
+  void findEligible(const Parts& parts);
   void updateGroups(const NodalState& state, Real dt);
   void findHolds(const Parts& parts, Real middle);
-  void kick(Real dt, NodalState& state);
+  void kick(Real dt, bool axisymmetric, NodalState& state);
   /// Of substepped elements and planes at substepped nodes, into forces.
   void sumForces(const Contact* contact, const NodeVectors& forces) const;
 
@@ -103,8 +108,8 @@ private:
   NodeVectors reactionImpulse_; ///< owned nodes, of the substeps of the last cycle [N s]
   Real kick_ = 0;               ///< that the last cycle ended with [s]
   // Of plan() and regroup(), until the kick.
-  std::vector<Real> steps_;     ///< stable, by owned node; infinity: has no say [s]
-  std::vector<char> eligible_;  ///< by owned node: may be substepped
+  Array<Real> steps_;          ///< stable, by node; infinity: has no say [s]
+  std::vector<char> eligible_; ///< by owned node: may be substepped
   Real leastEligible_ = infinity;
   bool isRegrouped_ = false;
   int countBefore_ = 1;

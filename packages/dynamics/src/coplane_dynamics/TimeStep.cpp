@@ -70,8 +70,7 @@ Real TimeStep::stableOfBodies(const Parts& parts) const
 Real TimeStep::stable(const Parts& parts) const
 {
   if (scaling_.acts())
-    return std::min(
-        {stableOfBodies(parts), scaling_.stable(parts)});
+    return std::min({stableOfBodies(parts), scaling_.stable(parts)});
   const auto stiffness = parts.state.contactStiffness;
   const auto mass = parts.state.mass;
   const NodalMotion* const motion = &parts.motion;
@@ -79,14 +78,13 @@ Real TimeStep::stable(const Parts& parts) const
   {
     // By nodes throughout: those that are substepped allow that much longer cycles.
     const auto substeps = parts.state.substeps;
-    return std::min(stableOfBodies(parts),
-                    parallelMin(
-                        "coplane::dynamics::stableStep", parts.layout.owned(),
-                        KOKKOS_LAMBDA(const int n) {
-                          return !(mass(n) > 0) || motion->followsBody(n)
-                                     ? infinity
-                                     : substeps(n) * nodeStep(parts, n);
-                        }));
+    return std::min(stableOfBodies(parts), parallelMin(
+                                               "coplane::dynamics::stableStep",
+                                               parts.layout.owned(), KOKKOS_LAMBDA(const int n) {
+                                                 return !(mass(n) > 0) || motion->followsBody(n)
+                                                            ? infinity
+                                                            : substeps(n) * nodeStep(parts, n);
+                                               }));
   }
   const Real least = std::min(stableOfBodies(parts), parts.elements.smallestStep());
   if (!parts.contact && parts.lines.empty())

@@ -460,13 +460,13 @@ void ElementBlock::give(const std::vector<int>& elements, ElementBlock& part) co
 {
   // What pads the last batch is a copy of the last element.
   const int padded = int(part.arrays_.mass.extent(0)), last = int(elements.size()) - 1;
-  ElementArrays::forEachOfBoth(
-      arrays_, part.arrays_,
-      [&](const auto& from, const auto& to)
-      {
-        for (int i = 0; i < padded; ++i)
-          copyColumn(from, elements[std::size_t(std::min(i, last))], to, i);
-      });
+  ElementArrays::forEachOfBoth(arrays_, part.arrays_,
+                               [&](const auto& from, const auto& to)
+                               {
+                                 for (int i = 0; i < padded; ++i)
+                                   copyColumn(from, elements[std::size_t(std::min(i, last))], to,
+                                              i);
+                               });
 }
 
 void ElementBlock::take(const std::vector<int>& elements, const ElementBlock& part)

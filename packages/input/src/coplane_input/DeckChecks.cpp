@@ -160,6 +160,35 @@ void checkMassScaling(const Deck& deck, const DeckNode& root, Problems& problems
   }
 }
 
+void checkSubcycling(const Deck& deck, const DeckNode& root, Problems& problems)
+{
+  if (deck.time.subcyclingLevels == 1)
+    return;
+  const DeckNode& node = nodeAt(root, {"time", "subcycling"});
+  const auto exclude = [&](bool given, const char* key, const char* why)
+  {
+    if (given)
+      problems.add(node, fmt::format("time.subcycling does not go with {}: {}; accepted: one of "
+                                     "them.",
+                                     key, why));
+  };
+  exclude(deck.time.fixedStep.has_value(), "time.fixed_step",
+          "the cycle is as long as a few substepped elements make worth while");
+  exclude(deck.time.scaledStep.has_value(), "time.mass_scaling",
+          "masses would be raised for a step that nothing needs");
+  exclude(deck.localDamping > 0, "damping.local",
+          "it goes by the forces of a cycle, and those of substeps come between");
+  exclude(deck.kineticDamping, "damping.kinetic", "it stops all motion at once, within a cycle");
+  exclude(deck.dampingEnergyRatio || deck.dampingForceRatio,
+          "damping.until_energy_ratio and until_force_ratio",
+          "those are for runs to a state of rest, whose steps mass_scaling makes longer");
+  for (std::size_t i = 0; i < deck.stages.size(); ++i)
+    for (const char* key : {"remove", "add"})
+      exclude(nodeAt(root, {"stages", std::to_string(i)}).find(key) != nullptr,
+              fmt::format("stages.{}.{}", i, key).c_str(),
+              "blocks come and leave with the velocities of whole cycles");
+}
+
 void checkConditions(const Deck& deck, const DeckNode& root, Problems& problems)
 {
   for (std::size_t i = 0; i < deck.conditions.size(); ++i)
@@ -754,6 +783,7 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
   checkConditions(deck, root, problems);
   checkDamping(deck, root, problems);
   checkMassScaling(deck, root, problems);
+  checkSubcycling(deck, root, problems);
   checkForces(deck, root, problems);
   checkDebris(deck, root, problems);
   checkErosion(deck, root, problems);
