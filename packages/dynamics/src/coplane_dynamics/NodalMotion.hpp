@@ -68,7 +68,8 @@ public:
   /// Force of fixed, velocity, displacement, acceleration and symmetry on an owned node at n; zero
   /// on nodes of rigid bodies, which have reactions of their own (RigidBodies::motion) [N].
   Vec3 reaction(int node) const;
-  /// What symmetry forbids in the middle of the step that follows the last kick.
+  /// What symmetry forbids in the middle of a step [s]; a kick asks for that of the next one.
+  void findProjections(const Conditions& conditions, Real middle);
   const std::vector<Conditions::Projection>& projections() const { return projections_; }
   const FreeFields& freeFields() const { return freeFields_; }
 
@@ -91,7 +92,6 @@ public:
   }
 
 private:
-  void findProjections(const Conditions& conditions, Real middle);
   void applyLocalDamping(Real fraction, const Conditions& conditions, Real middle,
                          const NodalState& state);
   void kickNodes(const Times& times, const Conditions& conditions, NodalState& state);

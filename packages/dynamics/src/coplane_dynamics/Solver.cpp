@@ -312,7 +312,6 @@ void Solver::search(Real time, bool again)
   Kokkos::deep_copy(state_.velocityAtSearch, ownedOf(state_.v));
   Kokkos::deep_copy(state_.atPassing, state_.atSearch);
   subcycling_.relist(parts(), contact_.get());
-  regroupIsDue_ = true;
 }
 
 void Solver::passOn()
@@ -441,8 +440,7 @@ Real Solver::chooseStep(Real stable, const MotionLimits& limits)
   if (!subcycling_.acts())
     return step_.choose(stable, limits, searches_.relativeSpeed(), parts());
   const Real factor = model_.time.stepFactor;
-  bool regroup = std::exchange(regroupIsDue_, false) || clock_.cycle % regroupEvery == 0 ||
-                 factor * stable < clock_.nextStep;
+  bool regroup = clock_.cycle % regroupEvery == 0 || factor * stable < clock_.nextStep;
   const Real safe =
       regroup ? subcycling_.plan(parts(), step_) : std::max(stable, subcycling_.planned());
   Real step = step_.choose(safe, limits, searches_.relativeSpeed(), parts());
@@ -471,6 +469,8 @@ void Solver::kick(Real step)
       });
   bookFromOutside(NodalMotion::kickOf(kickTimes(step)));
   clock_.nextStep = step;
+  if (subcycling_.acts())
+    subcycling_.endKick(parts(), state_);
 }
 
 /// What bodies get from their images beyond planes of symmetry during a kick [s].

@@ -272,7 +272,6 @@ private:
   Relaxation relaxation_;
   Ledger ledger_;
   BalanceWatch watch_;
-  bool regroupIsDue_ = true;  ///< what is substepped, whatever the step; the same on all ranks
   bool massesRaised_ = false; ///< on this rank, since ranks agreed on a step
   bool contactMayHaveGained_ = false; ///< in this cycle, on some rank: the same on all
   bool failed_ = false;               ///< the same on all ranks

@@ -19,7 +19,7 @@ struct NodeColumns
 };
 
 /// What changes of the owned nodes. Places at the start come from the mesh.
-NodeColumns nodeColumns(const NodalState& state)
+NodeColumns nodeColumns(const NodalState& state, bool subcycles)
 {
   NodeColumns columns;
   const auto vector = [&](const char* name, const NodeVectors& values)
@@ -41,9 +41,13 @@ NodeColumns nodeColumns(const NodalState& state)
   vector("at_search", state.atSearch);
   vector("velocity_at_search", state.velocityAtSearch);
   vector("at_passing", state.atPassing);
-  vector("steady_mean", state.steadyMean);
-  vector("steady_force", state.steadyForce);
-  vector("under_way", state.underWay);
+  if (subcycles)
+  {
+    vector("steady_mean", state.steadyMean);
+    vector("steady_force", state.steadyForce);
+    vector("under_way", state.underWay);
+    vector("taken_off", state.takenOff);
+  }
   const auto scalar = [&](const char* name, const Array<Real>& values)
   {
     columns.names.push_back(name);
@@ -57,7 +61,8 @@ NodeColumns nodeColumns(const NodalState& state)
   // Mass scaling adds to masses bit by bit: what they are does not follow from both parts.
   scalar("mass", state.mass);
   scalar("added_mass", state.addedMass);
-  scalar("substeps", state.substeps);
+  if (subcycles)
+    scalar("substeps", state.substeps);
   return columns;
 }
 
@@ -156,8 +161,8 @@ void Solver::restore(const StateSource& in)
     contact_->followFaces(state_.x, state_.v, searches_.timeSince(clock_.time), lookAhead());
     contact_->findFaces(state_.x, state_.v);
   }
+  motion_->findProjections(model_.conditions, clock_.time + 0.5 * clock_.nextStep);
   subcycling_.restore(parts(), state_, contact_.get());
-  regroupIsDue_ = false;
   Ledger::forEachStruct(ledger_,
                         [&](const char* name, auto& values) { setNumbers(values, in, name); });
 }
@@ -189,7 +194,7 @@ void Solver::repartition(Model model)
 
 void Solver::saveNodes(StateTables& out) const
 {
-  const NodeColumns columns = nodeColumns(state_);
+  const NodeColumns columns = nodeColumns(state_, subcycling_.acts());
   KeyedRows nodes;
   nodes.columns = columns.names;
   for (int n = 0; n < layout_.owned(); ++n)
@@ -206,7 +211,7 @@ void Solver::saveNodes(StateTables& out) const
 
 void Solver::restoreNodes(const StateSource& in)
 {
-  const NodeColumns columns = nodeColumns(state_);
+  const NodeColumns columns = nodeColumns(state_, subcycling_.acts());
   const KeyedRows rows = in.rowsOf(
       "nodes", columns.names,
       std::vector<GlobalId>(layout_.ids().begin(), layout_.ids().begin() + layout_.owned()));

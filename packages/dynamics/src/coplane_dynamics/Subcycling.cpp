@@ -14,6 +14,7 @@ constexpr Real margin = 1.15;
 /// What a substep of a node costs over what a node costs in a cycle: those that are substepped are
 /// in contact more often than others.
 constexpr Real costOfSubstep = 1.5;
+constexpr Real worthWhile = 0.9; ///< of the work without substeps: what a plan has to save
 constexpr int perLevel = 4; ///< lengths of a cycle that plan() chooses from, between powers of two
 constexpr Real roundOff = 1e-12;
 
@@ -24,9 +25,8 @@ std::vector<int> sortedOnce(std::vector<int> numbers)
   return numbers;
 }
 
-/// One step of a smoothing over some thirty cycles: two in a row follow waves and resonances so
-/// little that these gain less than 1e-5 in a cycle without any damping, and a state of rest is
-/// found in a hundred.
+/// One step of a smoothing over some hundred cycles. Two in a row follow waves and resonances so
+/// little that these gain some 1e-6 in a cycle where nothing damps them.
 Vec3 smoothed(const Vec3& mean, const Vec3& value)
 {
   constexpr Real follow = 1.0 / 300;
@@ -61,7 +61,6 @@ void Subcycling::begin(Real dt, Real lookAhead, const Parts& parts, NodalState& 
     last_ = NodeVectors("coplane::dynamics::lastVelocity", state.v.extent(0));
   Kokkos::deep_copy(last_, state.v);
   clear(nodes_, reactionImpulse_);
-  findHolds(parts, parts.clock.time + 0.5 * dt);
   moved_ = nodes_;
   std::vector<Vec3> start;
   for (const int n : nodes_)
@@ -121,10 +120,11 @@ void Subcycling::sumForces(const Contact* contact, const NodeVectors& forces) co
     contact->addSubsteppedForces(forces);
 }
 
-/// Along which directions conditions hold substepped nodes within a cycle, to the velocities that
-/// it begins with; those that win are the last.
-void Subcycling::findHolds(const Parts& parts, Real middle)
+/// Along which directions conditions hold substepped nodes within the next cycle, to the velocities
+/// that it begins with; those that win are the last.
+void Subcycling::findHolds(const Parts& parts)
 {
+  const Real middle = parts.clock.time + 0.5 * parts.clock.nextStep;
   holds_ = {nodes_.size(), [&](const auto& visit)
             {
               const auto visitNode = [&](int node, const Vec3& direction)
@@ -142,6 +142,13 @@ void Subcycling::findHolds(const Parts& parts, Real middle)
             }};
 }
 
+Vec3 Subcycling::withoutHeld(std::size_t place, Vec3 force) const
+{
+  for (const Vec3& direction : holds_[place])
+    force -= dot(direction, force) * direction;
+  return force;
+}
+
 /// In the middle of a cycle.
 void Subcycling::kick(Real dt, bool axisymmetric, NodalState& state)
 {
@@ -151,9 +158,7 @@ void Subcycling::kick(Real dt, bool axisymmetric, NodalState& state)
     if (!(state.mass(n) > 0))
       continue;
     const Vec3 force = at(forces_, n) + at(state.steadyForce, n), before = at(last_, n);
-    Vec3 free = force;
-    for (const Vec3& direction : holds_[i])
-      free -= dot(direction, free) * direction;
+    Vec3 free = withoutHeld(i, force);
     Vec3 after = before + (dt / state.mass(n)) * free;
     if (axisymmetric && after.x < -state.x(n, 0) / dt) // comes to the axis and no further
     {
@@ -316,15 +321,16 @@ Real Subcycling::plan(const Parts& parts, const TimeStep& step)
         ++substepped[std::size_t(choice)];
   }
   parts.comm.sum(substepped);
-  Real leastWork = infinity;
-  for (int choice = 0; choice < choices; ++choice)
+  Real leastWork = worthWhile * Real(substepped.back()) / length(0); // per time
+  for (int choice = 1; choice < choices; ++choice)
   {
     const int substeps = 1 << ((choice + perLevel - 1) / perLevel);
-    const Real work =
-        Real(substepped.back()) + costOfSubstep * substeps * Real(substepped[std::size_t(choice)]);
-    if (work / length(choice) < leastWork)
+    const Real work = (Real(substepped.back()) +
+                       costOfSubstep * substeps * Real(substepped[std::size_t(choice)])) /
+                      length(choice);
+    if (work < leastWork)
     {
-      leastWork = work / length(choice);
+      leastWork = work;
       planned_ = length(choice);
     }
   }
@@ -364,6 +370,7 @@ void Subcycling::restore(const Parts& parts, NodalState& state, Contact* contact
   count_ = int(parts.comm.max(most));
   parts.layout.refresh(state.substeps);
   list(parts, contact);
+  findHolds(parts);
 }
 
 /// What is substepped, from the steps of nodes.
@@ -458,7 +465,14 @@ void Subcycling::weigh(Real before, Real after, NodalState& state, const Contact
   for (const int n : nodes_)
     slow.push_back(at(state.force, n) + at(state.external, n) - at(forces_, n));
   const auto takeOff = [&](int n, Real impulse, const Vec3& force)
-  { set(state.force, n, at(state.force, n) - (impulse / kick_) * force); };
+  {
+    const Vec3 off = (impulse / kick_) * force;
+    set(state.force, n, at(state.force, n) - off);
+    set(state.takenOff, n, at(state.takenOff, n) + off);
+  };
+  clear(nodes_, state.takenOff);
+  clear(nodesBefore_, state.takenOff);
+  clear(moved, state.takenOff);
   if (countBefore_ > 1)
     for (const int n : nodesBefore_)
       takeOff(n, lateBefore, at(forcesBefore, n));
@@ -483,6 +497,13 @@ void Subcycling::weigh(Real before, Real after, NodalState& state, const Contact
     set(state.underWay, n, lateAfter * steady);
     takeOff(n, lateAfter, at(forces_, n) + steady);
   }
+}
+
+void Subcycling::endKick(const Parts& parts, NodalState& state)
+{
+  findHolds(parts);
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    set(state.takenOff, nodes_[i], withoutHeld(i, at(state.takenOff, nodes_[i])));
 }
 
 Vec3 Subcycling::reaction(int node) const

@@ -61,6 +61,8 @@ public:
   /// Takes from the forces of nodes, for the kick between two cycles, what substepped elements and
   /// planes give in other steps [s].
   void weigh(Real before, Real after, NodalState& state, const Contact* contact);
+  /// After it, when the next step is known.
+  void endKick(const Parts& parts, NodalState& state);
 
   /// What symmetry has held owned nodes with in the substeps of the last cycle, part of the mean of
   /// it [N].
@@ -90,7 +92,9 @@ private:
   static Array<Real> leastAround(const Parts& parts, const Array<Real>& ofNodes);
   void findEligible(const Parts& parts);
   void updateGroups(const NodalState& state, Real dt);
-  void findHolds(const Parts& parts, Real middle);
+  void findHolds(const Parts& parts);
+  /// The part of a force at nodes_[place] that conditions do not hold.
+  Vec3 withoutHeld(std::size_t place, Vec3 force) const;
   void kick(Real dt, bool axisymmetric, NodalState& state);
   /// Of substepped elements and planes at substepped nodes, into forces.
   void sumForces(const Contact* contact, const NodeVectors& forces) const;

@@ -461,6 +461,11 @@ HistoryColumns HistoryObserver::columnsOf(const Solver& solver) const
   line.add("eroded_mass[kg]", erosion.mass);
   if (solver.scalesMass())
     addAddedMasses(line, solver);
+  if (solver.subcycling().acts())
+  {
+    line.add("substeps", std::int64_t(solver.subcycling().substeps()));
+    line.add("substepped_elements", solver.comm().sum(solver.substepped().elements));
+  }
   const std::vector<Real> probes = probeValues(solver);
   const std::vector<Vec3> reactionsOf = reactions(solver);
   const std::vector<NamedValues> planes = planeValues(solver, probes);
