@@ -115,7 +115,7 @@ TEST(SubcycledBar, carriesAPulseLikeSmallSteps)
   EXPECT_NEAR(few.displacement, exact, 1e-2 * exact);
   EXPECT_NEAR(half.displacement, exact, 1e-2 * exact);
   EXPECT_LT(small.energyError, 1e-3);
-  EXPECT_LT(few.energyError, 2e-2);
+  EXPECT_LT(few.energyError, 1e-2);
   EXPECT_LT(half.energyError, 0.35 * few.energyError); // of the second order
 }
 
@@ -239,7 +239,8 @@ TEST_P(SubcyclingInContact, keepsMomentaAndEnergyInContact)
     EXPECT_EQ(substeps > 1, levels > 1);
     const EnergyBalance energy = solver.energy();
     EXPECT_GT(energy.contact.friction, 0.01 * energy.initial);
-    EXPECT_LT(std::abs(energy.error()), 2e-3 * energy.initial);
+    // They begin in contact, at full speed: forces come up in the first cycle.
+    EXPECT_LT(std::abs(energy.error()), (levels > 1 ? 5e-3 : 1e-4) * energy.initial);
     EXPECT_LT(std::abs(energy.contact.remainder()), 2e-2 * energy.initial);
     const Momenta momenta = solver.momenta();
     EXPECT_LT(norm(momenta.linearError()), 1e-12 * momenta.magnitude);

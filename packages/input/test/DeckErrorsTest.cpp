@@ -787,6 +787,26 @@ TEST(DeckErrors, hourglassControlBelongsToOnePoint)
             std::string::npos);
 }
 
+TEST(DeckErrors, whatSubcyclingDoesNotGoWith)
+{
+  const std::vector<std::pair<std::string, std::string>> others = {
+      {"time.fixed_step=1e-6", "time.fixed_step"},
+      {"time.mass_scaling.step=1e-6", "time.mass_scaling"},
+      {"damping.local=0.5", "damping.local"},
+      {"damping.kinetic=true", "damping.kinetic"}};
+  for (const auto& [assignment, key] : others)
+    EXPECT_NE(errorOf(leastDeck, {"time.subcycling.levels=3", assignment})
+                  .find("time.subcycling does not go with " + key + ":"),
+              std::string::npos)
+        << assignment;
+  for (const char* levels : {"0", "7"})
+    EXPECT_EQ(
+        errorOf(leastDeck, {std::string("time.subcycling.levels=") + levels}),
+        fmt::format("--set time.subcycling.levels={0}: time.subcycling.levels = '{0}' is out of "
+                    "range; accepted: a whole number >= 1 and <= 6 [-].",
+                    levels));
+}
+
 TEST(DeckErrors, aFolderForADeck)
 {
   try
@@ -811,8 +831,8 @@ TEST(DeckSetErrors, anUnknownKey)
 {
   EXPECT_EQ(errorOf(leastDeck, {"time.and=3"}),
             "--set time.and=3: time.and is not known. Did you mean 'end'? Accepted here: end, "
-            "end_at_rest, step_factor, maximum_step, fixed_step, mass_scaling, energy_tolerance, "
-            "contact_gain_tolerance.");
+            "end_at_rest, step_factor, maximum_step, fixed_step, mass_scaling, subcycling, "
+            "energy_tolerance, contact_gain_tolerance.");
 }
 
 TEST(DeckSetErrors, aWrongValueNamesTheSetAndNotTheFile)

@@ -102,5 +102,5 @@ UNTOLD = {
     "V84_factor_of_safety": ELSEWHERE,
     "rest_under_loads": "the bar of relaxation, which is told; its answers are when a run ends, and what the log says",
     **dict.fromkeys(["V56_brick_wall", "joint_laws", "perforation_3d", "rock_slope_2d", "shaken_stones_2d", "tunnel_2d"], LONG),
-    **dict.fromkeys(["V20_hertz_ball", "bent_rows", "debris", "deep_slides", "mass_scaling"], TRIED),
+    **dict.fromkeys(["V20_hertz_ball", "bent_rows", "debris", "deep_slides", "mass_scaling", "subcycling"], TRIED),
 }  # fmt: skip

@@ -36,28 +36,14 @@ enum Term
 };
 using EnergySums = ExactSums; // by Term
 
-/// What v(n-1/2).v(n+1/2) lacks where forces that are in balance act at different times within a
-/// cycle: m/8 of the squared changes of velocity in the kick, as it is and as all forces at n would
-/// make it. @param kick [s]
-Real kineticOfSwing(const NodalState& state, int n, Real kick)
-{
-  const Vec3 change = at(state.v, n) - at(state.vPrevious, n),
-             ofAll = change + (kick / state.mass(n)) * at(state.takenOff, n);
-  return 0.125 * state.mass(n) * (dot(change, change) - dot(ofAll, ofAll));
-}
-
 /// Works are booked to n + 1/2: what lies ahead of n is taken off.
 void addNode(const Parts& parts, int n, EnergySums& sums)
 {
   const NodalState& state = parts.state;
   if (!parts.motion.followsBody(n))
     sums[Kinetic].add(0.5 * state.mass(n) * dot(at(state.vPrevious, n), at(state.v, n)));
-  if (const Vec3 off = at(state.takenOff, n); off.x != 0 || off.y != 0 || off.z != 0)
-  {
-    const Real swing = kineticOfSwing(state, n, 0.5 * (parts.clock.step + parts.clock.nextStep));
-    sums[Kinetic].add(swing);
-    sums[Nodal].add(swing);
-  }
+  for (const Term term : {Kinetic, Nodal})
+    sums[term].add(state.swing(n));
   const Vec3 ahead = (0.5 * parts.clock.nextStep) * at(state.v, n);
   const Vec3 external = at(state.external, n), damping = at(state.damping, n),
              localDamping = at(state.localDamping, n);

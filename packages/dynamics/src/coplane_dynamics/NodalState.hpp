@@ -46,9 +46,9 @@ struct NodalState
   /// Part of the momentum that it gives to them until the middle of the cycle, but comes later [N
   /// s].
   NodeVectors underWay;
-  /// By how much the mean force of the kick at n is less than all forces at n, where conditions do
-  /// not hold the node: impulses of substeps come at other times [N].
-  NodeVectors takenOff;
+  /// What m/2 v(n-1/2).v(n+1/2) of them lacks of the kinetic energy at n, because forces that are
+  /// in balance act at different times in a cycle [J].
+  Array<Real> swing;
 
   explicit NodalState(const RankMesh& mesh);
   int owned() const { return int(force.extent(0)); }

@@ -272,7 +272,7 @@ private:
   Relaxation relaxation_;
   Ledger ledger_;
   BalanceWatch watch_;
-  bool massesRaised_ = false; ///< on this rank, since ranks agreed on a step
+  bool massesRaised_ = false;         ///< on this rank, since ranks agreed on a step
   bool contactMayHaveGained_ = false; ///< in this cycle, on some rank: the same on all
   bool failed_ = false;               ///< the same on all ranks
   std::optional<Error> trouble_;      ///< of this rank

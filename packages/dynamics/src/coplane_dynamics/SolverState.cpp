@@ -46,7 +46,6 @@ NodeColumns nodeColumns(const NodalState& state, bool subcycles)
     vector("steady_mean", state.steadyMean);
     vector("steady_force", state.steadyForce);
     vector("under_way", state.underWay);
-    vector("taken_off", state.takenOff);
   }
   const auto scalar = [&](const char* name, const Array<Real>& values)
   {
@@ -62,7 +61,10 @@ NodeColumns nodeColumns(const NodalState& state, bool subcycles)
   scalar("mass", state.mass);
   scalar("added_mass", state.addedMass);
   if (subcycles)
+  {
     scalar("substeps", state.substeps);
+    scalar("swing", state.swing);
+  }
   return columns;
 }
 

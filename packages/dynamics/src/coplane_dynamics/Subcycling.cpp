@@ -9,8 +9,8 @@ namespace coplane
 namespace
 {
 /// What is below this many steps of a cycle is substepped, so that it may be crushed further before
-/// it limits the cycle.
-constexpr Real margin = 1.15;
+/// it limits the cycle, and stays so up to the other.
+constexpr Real margin = 1.15, marginToStay = 1.3;
 /// What a substep of a node costs over what a node costs in a cycle: those that are substepped are
 /// in contact more often than others.
 constexpr Real costOfSubstep = 1.5;
@@ -340,22 +340,27 @@ Real Subcycling::plan(const Parts& parts, const TimeStep& step)
 void Subcycling::regroup(Real step, const Parts& parts, NodalState& state, Contact* contact)
 {
   TimedRegion region("coplane::dynamics::subcycling");
-  isRegrouped_ = true;
   countBefore_ = count_;
-  nodesBefore_ = nodes_;
-  if (count_ > 1)
-    sumForces(contact, forcesBefore_);
   const Real stable = options_.stepFactor;
   count_ = 1;
   while (count_ < 1 << (options_.subcyclingLevels - 1) &&
          count_ * stable * leastEligible_ < (1 - roundOff) * step)
     count_ *= 2;
+  std::int64_t isOther = count_ != countBefore_;
   for (int n = 0; n < state.owned(); ++n)
   {
-    const bool substeps =
-        count_ > 1 && eligible_[std::size_t(n)] != 0 && stable * steps_(n) < margin * step;
-    state.substeps(n) = substeps ? count_ : 1;
+    const bool was = state.substeps(n) > 1;
+    const bool is = count_ > 1 && eligible_[std::size_t(n)] != 0 &&
+                    stable * steps_(n) < (was ? marginToStay : margin) * step;
+    isOther |= std::int64_t(is != was);
+    state.substeps(n) = is ? count_ : 1;
   }
+  isRegrouped_ = parts.comm.max(isOther) > 0;
+  if (!isRegrouped_)
+    return;
+  nodesBefore_ = nodes_;
+  if (countBefore_ > 1)
+    sumForces(contact, forcesBefore_);
   parts.layout.refresh(state.substeps);
   list(parts, contact);
 }
@@ -380,7 +385,7 @@ void Subcycling::list(const Parts& parts, Contact* contact)
   if (contact)
     contact->substepPairsAt(parts.state.substeps, owned);
   if (int(forces_.extent(0)) != owned)
-    for (NodeVectors* values : {&forces_, &forcesBefore_, &reactionImpulse_})
+    for (NodeVectors* values : {&forces_, &forcesBefore_, &reactionImpulse_, &takenOff_})
       *values = NodeVectors("coplane::dynamics::substeps", std::size_t(owned));
   groups_.clear();
   nodes_.clear();
@@ -468,11 +473,16 @@ void Subcycling::weigh(Real before, Real after, NodalState& state, const Contact
   {
     const Vec3 off = (impulse / kick_) * force;
     set(state.force, n, at(state.force, n) - off);
-    set(state.takenOff, n, at(state.takenOff, n) + off);
+    set(takenOff_, n, at(takenOff_, n) + off);
   };
-  clear(nodes_, state.takenOff);
-  clear(nodesBefore_, state.takenOff);
-  clear(moved, state.takenOff);
+  for (const std::vector<int>* nodes :
+       std::initializer_list<const std::vector<int>*>{&nodes_, &nodesBefore_, &moved})
+    for (const int n : *nodes)
+    {
+      set(takenOff_, n, {});
+      state.swing(n) = 0;
+    }
+  substepOfKick_ = (before / countBefore_ + after / count_) / (before + after);
   if (countBefore_ > 1)
     for (const int n : nodesBefore_)
       takeOff(n, lateBefore, at(forcesBefore, n));
@@ -501,9 +511,21 @@ void Subcycling::weigh(Real before, Real after, NodalState& state, const Contact
 
 void Subcycling::endKick(const Parts& parts, NodalState& state)
 {
+  if (nodes_.empty())
+    return;
   findHolds(parts);
   for (std::size_t i = 0; i < nodes_.size(); ++i)
-    set(state.takenOff, nodes_[i], withoutHeld(i, at(state.takenOff, nodes_[i])));
+  {
+    const int n = nodes_[i];
+    if (!(state.mass(n) > 0))
+      continue;
+    // Velocities change by the kick, in which forces that are in balance may not be, and would by
+    // all forces at n in a substep.
+    const Vec3 change = at(state.v, n) - at(state.vPrevious, n),
+               inSubstep = substepOfKick_ *
+                           (change + (kick_ / state.mass(n)) * withoutHeld(i, at(takenOff_, n)));
+    state.swing(n) = 0.125 * state.mass(n) * (dot(change, change) - dot(inSubstep, inSubstep));
+  }
 }
 
 Vec3 Subcycling::reaction(int node) const

@@ -110,7 +110,9 @@ private:
   NodeVectors last_;            ///< velocity in the last substep, all nodes of the layout [m/s]
   NodeVectors forces_;          ///< owned nodes [N]
   NodeVectors reactionImpulse_; ///< owned nodes, of the substeps of the last cycle [N s]
+  NodeVectors takenOff_;        ///< by weigh(), owned nodes [N]
   Real kick_ = 0;               ///< that the last cycle ended with [s]
+  Real substepOfKick_ = 1;      ///< of substeps, the same over that [-]
   // Of plan() and regroup(), until the kick.
   Array<Real> steps_;          ///< stable, by node; infinity: has no say [s]
   std::vector<char> eligible_; ///< by owned node: may be substepped

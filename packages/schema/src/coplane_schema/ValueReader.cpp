@@ -172,7 +172,7 @@ private:
       refuse(" is not a whole number");
     else if (error != std::errc())
       refuse(" is beyond the largest whole numbers, +-2147483647");
-    else if (key.lower && value < *key.lower)
+    else if (isOutside(key, value))
       refuse(" is out of range");
     else
       return value;
