@@ -216,8 +216,8 @@ std::string show(const Deck& d)
     showAll(out, i.block, i.velocity, i.angularVelocity, i.center, i.velocityField, i.stress,
             i.stressGradient, i.stressAxis, i.stressPoint);
   showAll(out, d.time.end, d.time.stepFactor, d.time.maximumStep, d.time.fixedStep,
-          d.time.scaledStep, d.time.scalingLimit, d.time.scalingWithWaves, d.time.energyTolerance,
-          d.time.contactGainTolerance);
+          d.time.scaledStep, d.time.scalingLimit, d.time.scalingWithWaves, d.time.subcyclingLevels,
+          d.time.energyTolerance, d.time.contactGainTolerance);
   showAll(out, d.output.results, d.output.every, d.output.planes, d.output.planesFormat,
           d.output.filePerRank, d.output.lines, d.output.fragments, d.output.fragmentDamage);
   for (const Real t : d.output.times)

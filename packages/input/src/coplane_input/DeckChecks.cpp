@@ -176,6 +176,8 @@ void checkSubcycling(const Deck& deck, const DeckNode& root, Problems& problems)
           "the cycle is as long as a few substepped elements make worth while");
   exclude(deck.time.scaledStep.has_value(), "time.mass_scaling",
           "masses would be raised for a step that nothing needs");
+  exclude(deck.contact.debris == "points", "contact.debris: points",
+          "what pushes the points would act once in a cycle only");
   exclude(deck.localDamping > 0, "damping.local",
           "it goes by the forces of a cycle, and those of substeps come between");
   exclude(deck.kineticDamping, "damping.kinetic", "it stops all motion at once, within a cycle");
