@@ -127,8 +127,7 @@ TEST(SubcycledBar, takesFewerCycles)
   few.prepare();
   EXPECT_GT(few.clock().nextStep, 3 * small.clock().nextStep);
   EXPECT_EQ(few.subcycling().substeps(), 4);
-  const Subcycling::Counts counts = few.substepped();
-  EXPECT_EQ(comm.sum(counts.elements), 6); // two thin ones and their neighbours
+  EXPECT_EQ(few.substeppedElements(), 6); // two thin ones and their neighbours
   // No more than it may.
   Solver two(withLevels(pushedBar(comm), 2), comm);
   two.prepare();
@@ -142,7 +141,7 @@ TEST(SubcycledBar, keepsTheEnergyOfBarsOfAnyLayers)
   const Comm comm;
   std::mt19937 random(4);
   std::uniform_real_distribution<Real> shift(0, 0.095);
-  for (int bar = 0; bar < 6; ++bar)
+  for (int bar = 0; bar < 4; ++bar)
   {
     Mesh mesh = layers(60);
     for (int layer = 5; layer < 60; layer += 18)
@@ -155,10 +154,10 @@ TEST(SubcycledBar, keepsTheEnergyOfBarsOfAnyLayers)
          {0, 0, 1}});
     Solver solver(std::move(model), comm);
     solver.prepare();
-    cycles(solver, 10000);
+    cycles(solver, 5000);
     const EnergyBalance energy = solver.energy();
     EXPECT_GT(solver.subcycling().substeps(), 1) << "bar " << bar;
-    EXPECT_LT(std::abs(energy.error()), 0.03 * energy.initial) << "bar " << bar;
+    EXPECT_LT(std::abs(energy.error()), 0.02 * energy.initial) << "bar " << bar;
     EXPECT_LT(norm(solver.momenta().linearError()), 1e-11 * solver.momenta().magnitude);
   }
 }
@@ -178,6 +177,30 @@ TEST(SubcycledBar, staysAtRestUnderStress)
   cycles(solver, 200);
   EXPECT_GT(solver.subcycling().substeps(), 1);
   EXPECT_LT(largest(solver.state().v, solver.layout().owned(), comm), 1e-12);
+}
+
+TEST(SubcycledBar, hasNoReactionsOfSubstepsThatHaveEnded)
+{
+  const Comm comm;
+  Mesh mesh = layers(20);
+  moveLayer(mesh, 0.1, 0.015);
+  Model model = withLevels(barOfLayers(mesh, comm), 4);
+  const std::vector<int> end =
+      ownedNodesWhere(model.mesh, [](const Vec3& x) { return std::abs(x.z) < 1e-12; });
+  PrescribedVelocity held;
+  held.nodes = end;
+  held.components = {false, false, true};
+  model.conditions.velocities = {held};
+  model.blocks[0].velocity = {0, 0, 5};
+  model.blocks[0].erosion.volumeRatio = {0.5, 1.01}; // the thin layer tears
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  EXPECT_GT(solver.subcycling().substeps(), 1);
+  cycles(solver, 300);
+  EXPECT_GT(solver.erosion().elements, 0);
+  for (const int n : end)
+    EXPECT_EQ(norm(solver.reaction(n)), 0);
+  EXPECT_LT(norm(solver.momenta().linearError()), 1e-12 * solver.momenta().magnitude);
 }
 
 TEST(SubcycledBar, holdsWhatConditionsHold)
@@ -254,6 +277,61 @@ TEST_P(SubcyclingInContact, keepsMomentaAndEnergyInContact)
     velocity[levels > 1] = sumOverRanks(momentum, solver.layout().owned(), comm);
   }
   EXPECT_LT(norm(velocity[1] - velocity[0]), 0.02 * norm(velocity[0]));
+}
+
+TEST_P(SubcyclingInContact, keepsMomentumWhereElementsDieAndSearchesCome)
+{
+  // Planes that begin in a substep, and lose an element or meet a search in the same cycle.
+  const Comm world, alone(MPI_COMM_SELF);
+  const auto run = [](const Comm& comm)
+  {
+    Model model = crushedCubes(comm);
+    for (BlockSetup& block : model.blocks)
+      block.erosion.volumeRatio = {0.985, 1.02};
+    model.blocks[1].velocity = {60, 20, -30};
+    model.skin = 0.01;
+    model.time.energyTolerance = model.time.contactGainTolerance = infinity;
+    Solver solver(std::move(model), comm);
+    solver.prepare();
+    int substeps = 1;
+    for (int i = 0; i < 150; ++i)
+    {
+      solver.advance();
+      substeps = std::max(substeps, solver.subcycling().substeps());
+      EXPECT_LT(norm(solver.momenta().linearError()), 1e-12 * solver.momenta().magnitude);
+    }
+    EXPECT_GT(substeps, 1);
+    EXPECT_GT(solver.erosion().elements, 4);
+    EXPECT_GT(solver.searches(), 10);
+    return solver.stateHash();
+  };
+  EXPECT_EQ(run(world), run(alone));
+}
+
+TEST_P(SubcyclingInContact, keepsMomentumWithRigidBodies)
+{
+  // A search finds rigid faces beside substepped ones.
+  const Comm comm;
+  Mesh mesh;
+  addBox(mesh, "lower", {8, 8, 8}, {0, 0, 0}, {1, 1, 1});
+  moveLayer(mesh, 0.875, 0.97, [](const Vec3& x) { return x.x < 0.3 && x.y < 0.3; });
+  addBox(mesh, "rigid", {2, 2, 2}, {-0.4, 0.0625, 1.06}, {0.5, 0.4, 0.5});
+  Model model = withLevels(rockModel(mesh, comm, 0.25), 4);
+  model.rigidBodyOfNode = rigidBodiesOf(model.mesh, {0, 1}, comm);
+  model.blocks[1].rigid = true;
+  model.blocks[1].velocity = {24, 1, -18};
+  model.skin = 5e-4;
+  model.time.energyTolerance = model.time.contactGainTolerance = infinity;
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  EXPECT_GT(solver.subcycling().substeps(), 1);
+  for (int i = 0; i < 150; ++i)
+  {
+    solver.advance();
+    EXPECT_LT(norm(solver.momenta().linearError()), 1e-12 * solver.momenta().magnitude);
+  }
+  EXPECT_GT(solver.searches(), 5);
+  EXPECT_GT(solver.energy().internal, 0.01 * solver.initialEnergy().kinetic); // they have met
 }
 
 TEST_P(SubcyclingInContact, hasTheSameBitsOnAnyRanks)

@@ -193,8 +193,10 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
   searches_.sinceUpdate = false;
 }
 
-void Contact::beginSubsteps(Real lookAhead)
+void Contact::beginSubsteps(const ConstNodeVectors& x, const Substep& step, Real sinceSearch,
+                            Real lookAhead)
 {
+  distances_.follow(x, step.v, sinceSearch, lookAhead);
   lookAhead_ = lookAhead;
   listSubsteppedNear();
 }
@@ -210,6 +212,7 @@ void Contact::updateSubstepped(const ConstNodeVectors& x, const Substep& step)
 {
   pairedFaces_.stepA(motionOf(x, step.v, step.dt), substepped_.nearFaces());
   updatePairs(substepped_.near(), step.dt);
+  planes_.listWoken(); // a search, or elements that die, may come before the next update
 }
 
 /// Steps B to H. @param slots whose faces have had step A, ascending

@@ -133,8 +133,10 @@ public:
     substepped_.list(planes_.slots().faces, faces(), localFaces().size(), ownedNodes, steps);
   }
   const SubsteppedPairs& substepped() const { return substepped_; }
-  /// Which of these pairs have to be looked at in the next cycle. @param lookAhead as in step 6 [s]
-  void beginSubsteps(Real lookAhead);
+  /// Which of these pairs have to be looked at in the cycle that begins, after the first of its
+  /// substeps. @param sinceSearch, lookAhead as in step 6 [s]
+  void beginSubsteps(const ConstNodeVectors& x, const Substep& step, Real sinceSearch,
+                     Real lookAhead);
   /// Steps A to H for those, at x. Until the next update faces are known for nobody else.
   void updateSubstepped(const ConstNodeVectors& x, const Substep& step);
   /// Adds their forces to owned nodes [N].

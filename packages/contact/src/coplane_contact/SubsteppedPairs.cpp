@@ -32,7 +32,8 @@ void SubsteppedPairs::list(const SlotTable& slots, const std::vector<Face>& face
   for (std::size_t p = 0; p < slots.extent(0); ++p)
   {
     const std::int32_t* const pair = slots(p).face;
-    if (pair[0] < 0 || (isAt[std::size_t(pair[0])] == 0 && isAt[std::size_t(pair[1])] == 0))
+    if (pair[0] < 0 || (isAt[std::size_t(pair[0])] == 0 && isAt[std::size_t(pair[1])] == 0) ||
+        faces[std::size_t(pair[0])].rigid || faces[std::size_t(pair[1])].rigid)
       continue;
     has_[p] = 1;
     slots_.push_back(int(p));

@@ -3,6 +3,7 @@
 #include <coplane_contact/FaceLoad.hpp>
 #include <coplane_contact/Faces.hpp>
 #include <coplane_contact/Plane.hpp>
+#include <coplane_contact/Substep.hpp>
 #include <coplane_core/Backend.hpp>
 #include <coplane_core/Lists.hpp>
 #include <coplane_core/NodeViews.hpp>
@@ -14,15 +15,9 @@
 
 namespace coplane
 {
-/// Some step of a cycle that is made of several.
-struct Substep
-{
-  ConstNodeVectors v; ///< velocity in its middle [m/s]
-  Real dt = 0;        ///< [s]
-};
-
 /// The pairs of the last search that advance by several steps in a cycle: those at a node that
-/// does (docs/theory/time.md).
+/// does (docs/theory/time-integration.md, "Subcycling"), but for those of rigid bodies, which move
+/// once in a cycle.
 class SubsteppedPairs
 {
 public:

@@ -82,7 +82,8 @@ std::vector<std::pair<int, int>> Erosion::dying(const ElementForces& elements,
 }
 
 std::vector<GlobalId> Erosion::erode(const RankMesh& mesh, ElementForces& elements,
-                                     const NodeVectors& v, Real dt, const std::vector<int>& leaving,
+                                     const Substep& cycle, const Array<Real>& substeps,
+                                     const Substep& last, const std::vector<int>& leaving,
                                      const Comm& comm)
 {
   if (!acts_)
@@ -101,8 +102,12 @@ std::vector<GlobalId> Erosion::erode(const RankMesh& mesh, ElementForces& elemen
   {
     const RankMesh::Block& part = mesh.blocks[b];
     const bool lives = elements.blocks()[b].isAlive(e);
+    const int corners = topology(part.type).nodes;
+    const int* const nodes = part.connectivity.data() + std::size_t(e) * std::size_t(corners);
+    const bool isSubstepped =
+        std::any_of(nodes, nodes + corners, [&](int n) { return substeps(n) > 1; });
     if (part.owned[e] && lives)
-      book(part, elements.blocks()[b], b, e, v, dt);
+      book(part, elements.blocks()[b], b, e, isSubstepped ? last : cycle);
     if (std::find(leaving.begin(), leaving.end(), b) != leaving.end())
       elements.block(b).takeOut(e);
     else
@@ -114,7 +119,7 @@ std::vector<GlobalId> Erosion::erode(const RankMesh& mesh, ElementForces& elemen
 }
 
 void Erosion::book(const RankMesh::Block& part, const ElementBlock& block, int b, int e,
-                   const NodeVectors& v, Real dt)
+                   const Substep& step)
 {
   // The element gives no force at the end of this step: what its energy got from that force over
   // the second half of the step has not been taken from the nodes.
@@ -123,9 +128,9 @@ void Erosion::book(const RankMesh::Block& part, const ElementBlock& block, int b
   Real power = 0;
   for (int k = 0; k < corners; ++k)
     power += dot(Vec3{force(e, k, 0), force(e, k, 1), force(e, k, 2)},
-                 at(v, part.connectivity[e * corners + k]));
+                 at(step.v, part.connectivity[e * corners + k]));
   ExactSum& sum = energies_[b];
-  sum.add(0.5 * dt * power);
+  sum.add(0.5 * step.dt * power);
   for (const ElementEnergy kind :
        {ElementEnergy::Internal, ElementEnergy::Hourglass, ElementEnergy::Viscous})
     sum.add(block.energy(e, kind));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_contact/Substep.hpp>
 #include <coplane_core/Comm.hpp>
 #include <coplane_core/ExactSum.hpp>
 #include <coplane_dynamics/ElementForces.hpp>
@@ -28,10 +29,12 @@ public:
 
   /// Takes out the elements that meet their criterion, and those of blocks that leave. Returns
   /// their ids, sorted, on all ranks; empty when there are none on any. Collective when it acts.
-  /// @param v velocities at n - 1/2, by which the elements came here [m/s]; dt: that step [s]
+  /// @param cycle by which the elements came here; last: step of those at a node with several
+  ///        `substeps` in it
   /// @param leaving blocks that a stage removes: their elements take their mass along
-  std::vector<GlobalId> erode(const RankMesh& mesh, ElementForces& elements, const NodeVectors& v,
-                              Real dt, const std::vector<int>& leaving, const Comm& comm);
+  std::vector<GlobalId> erode(const RankMesh& mesh, ElementForces& elements, const Substep& cycle,
+                              const Array<Real>& substeps, const Substep& last,
+                              const std::vector<int>& leaving, const Comm& comm);
   /// Takes blocks out that are not there yet; nothing is booked.
   void beginWithout(const std::vector<int>& blocks, const RankMesh& mesh, ElementForces& elements);
   /// After elements have come in.
@@ -62,7 +65,7 @@ private:
   std::vector<std::pair<int, int>> dying(const ElementForces& elements,
                                          const std::vector<int>& leaving) const;
   void book(const RankMesh::Block& part, const ElementBlock& block, int b, int e,
-            const NodeVectors& v, Real dt);
+            const Substep& step);
   void forget(const RankMesh::Block& part, int b, int e);
 
   bool acts_ = false;

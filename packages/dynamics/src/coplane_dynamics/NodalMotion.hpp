@@ -71,6 +71,7 @@ public:
   /// What symmetry forbids in the middle of a step [s]; a kick asks for that of the next one.
   void findProjections(const Conditions& conditions, Real middle);
   const std::vector<Conditions::Projection>& projections() const { return projections_; }
+  const std::vector<int>& nodesOfDashpots() const { return dashpots_.nodes(); }
   const FreeFields& freeFields() const { return freeFields_; }
 
   /// Reactions, and the bodies' part of a checkpoint. Collective.

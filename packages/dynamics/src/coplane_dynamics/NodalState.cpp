@@ -17,7 +17,8 @@ NodalState::NodalState(const RankMesh& mesh)
       contactStiffness("contactStiffness", mesh.ownedNodes),
       addedMass("addedMass", mesh.ownedNodes), substeps("substeps", mesh.nodes()),
       steadyMean("steadyMean", mesh.ownedNodes), steadyForce("steadyForce", mesh.ownedNodes),
-      underWay("underWay", mesh.ownedNodes), swing("swing", mesh.ownedNodes)
+      underWay("underWay", mesh.ownedNodes), takenOff("takenOff", mesh.ownedNodes),
+      swing("swing", mesh.ownedNodes)
 {
   Kokkos::deep_copy(substeps, 1.0);
   for (int n = 0; n < mesh.nodes(); ++n)

@@ -33,7 +33,7 @@ std::pair<Real, Real> forcesOf(const Parts& parts)
   {
     sums[1].add(norm(at(state.external, n)));
     if (!parts.motion.followsBody(n))
-      sums[0].add(norm(at(state.force, n) + at(state.external, n)));
+      sums[0].add(norm(at(state.force, n) + at(state.takenOff, n) + at(state.external, n)));
   }
   if (parts.comm.isRoot()) // every rank has all bodies
   {

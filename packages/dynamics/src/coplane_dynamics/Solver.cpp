@@ -14,8 +14,8 @@ namespace coplane
 namespace
 {
 constexpr std::int64_t energyCheckEvery = 100; // cycles; what contact gains in every one
+constexpr std::int64_t regroupEvery = 20;      ///< cycles; what is substepped
 /// Step by the motion of faces over that by elements when faces are about as fast as waves.
-constexpr std::int64_t regroupEvery = 20; ///< cycles; what is substepped
 constexpr Real fastBesideWaves = 0.35;
 constexpr Real mostCycles = 1e15; // some centuries
 /// Default skin over the smallest face [-]; the larger one where searches come by motion only.
@@ -179,10 +179,8 @@ void Solver::prepare()
 void Solver::advance()
 {
   const Real dt = clock_.nextStep;
-  {
-    const WorkWatch watch(work_.planes);
-    subcycling_.begin(dt, lookAhead(), parts(), state_, elements_, contact_.get());
-  }
+  subcycling_.begin({dt, searches_.timeSince(clock_.time), lookAhead()}, parts(), state_, elements_,
+                    contact_.get(), work_);
   drift(dt);
   refresh();
   findForces(dt);
@@ -215,7 +213,7 @@ void Solver::refresh()
 void Solver::findForces(Real dt)
 {
   elements_.update(state_, layout_, dt, work_);
-  subcycling_.endElements(dt, layout_, state_, elements_);
+  subcycling_.endElements(dt, layout_, state_, elements_, work_);
   const bool someDied = dt > 0 && erode(dt);
   if (contact_ && (searches_.isDue() || someDied))
     search(clock_.time + dt);
@@ -249,7 +247,8 @@ bool Solver::erode(Real dt)
   const std::vector<int> leaving = std::exchange(leaving_, {});
   const bool facesChange = comeIn(std::exchange(coming_, {}), clock_.time + dt);
   const std::vector<GlobalId> dead =
-      erosion_->erode(mesh(), elements_, state_.v, dt, leaving, *comm_);
+      erosion_->erode(mesh(), elements_, {state_.v, dt}, state_.substeps, subcycling_.lastStep(dt),
+                      leaving, *comm_);
   if (dead.empty() && !facesChange)
     return false;
   if (contact_)
@@ -621,7 +620,9 @@ bool Solver::contactCannotStop() const
   if (!contact_ ||
       stepsThroughSkin * searches_.relativeSpeed() * clock_.nextStep < contact_->skin())
     return false;
-  if (!step_.motionIsFasterThan(fastBesideWaves, searches_.relativeSpeed()))
+  // Waves pass the smallest elements in a substep.
+  if (!step_.motionIsFasterThan(fastBesideWaves / subcycling_.substeps(),
+                                searches_.relativeSpeed()))
     return false;
   const ContactCounts counts = contact_->counts();
   return counts.tooDeep > 0 || counts.missed > 0;

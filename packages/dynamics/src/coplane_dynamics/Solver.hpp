@@ -109,7 +109,8 @@ public:
   Vec3 reaction(int node) const { return motion_->reaction(node) + subcycling_.reaction(node); }
   /// Several steps in a cycle where only small ones are stable.
   const Subcycling& subcycling() const { return subcycling_; }
-  Subcycling::Counts substepped() const { return subcycling_.countsHere(parts()); } ///< this rank's
+  /// Over all ranks. Collective.
+  std::int64_t substeppedElements() const { return comm_->sum(subcycling_.elementsHere(parts())); }
   const RelaxationState& relaxation() const { return relaxation_.state(); }
   RestRatios restRatios() const { return coplane::restRatios(parts()); } ///< Collective.
   const StageState& stage() const { return stage_; }

@@ -1,4 +1,5 @@
 #include <coplane_core/Timers.hpp>
+#include <coplane_core/WorkWatch.hpp>
 #include <coplane_dynamics/Subcycling.hpp>
 
 #include <algorithm>
@@ -40,35 +41,34 @@ void clear(const std::vector<int>& nodes, const NodeVectors& values)
 }
 } // namespace
 
-Subcycling::Counts Subcycling::countsHere(const Parts& parts) const
+std::int64_t Subcycling::elementsHere(const Parts& parts) const
 {
-  Counts counts;
+  std::int64_t count = 0;
   for (const Group& group : groups_)
     for (const int e : group.elements)
-      counts.elements += parts.mesh().blocks[group.block].owned[std::size_t(e)] != 0;
-  counts.nodes = std::int64_t(nodes_.size());
-  return counts;
+      count += parts.mesh().blocks[group.block].owned[std::size_t(e)] != 0;
+  return count;
 }
 
-void Subcycling::begin(Real dt, Real lookAhead, const Parts& parts, NodalState& state,
-                       ElementForces& elements, Contact* contact)
+void Subcycling::begin(const Cycle& cycle, const Parts& parts, NodalState& state,
+                       ElementForces& elements, Contact* contact, WorkTimes& work)
 {
+  for (const int n : std::exchange(reacting_, {}))
+    set(reactionImpulse_, n, {});
   if (count_ == 1)
     return;
+  const Real dt = cycle.dt;
   TimedRegion region("coplane::dynamics::subcycling");
   const Real step = dt / count_;
   if (last_.extent(0) != state.v.extent(0))
     last_ = NodeVectors("coplane::dynamics::lastVelocity", state.v.extent(0));
   Kokkos::deep_copy(last_, state.v);
-  clear(nodes_, reactionImpulse_);
-  moved_ = nodes_;
+  reacting_ = moved_ = nodes_;
   std::vector<Vec3> start;
   for (const int n : nodes_)
     start.push_back(at(state.x, n));
   for (Group& group : groups_)
     elements.block(group.block).give(group.elements, group.part);
-  if (contact)
-    contact->beginSubsteps(lookAhead);
   const auto drift = [&]
   {
     for (const int n : nodes_)
@@ -78,9 +78,15 @@ void Subcycling::begin(Real dt, Real lookAhead, const Parts& parts, NodalState& 
   {
     drift();
     parts.layout.refresh(state.x, last_);
-    updateGroups(state, step);
+    updateGroups(state, step, work);
     if (contact)
+    {
+      const WorkWatch watch(work.planes);
+      if (substep == 1)
+        contact->beginSubsteps(state.x, {last_, step}, cycle.sinceSearch + step, cycle.lookAhead);
       contact->updateSubstepped(state.x, {last_, step});
+    }
+    const WorkWatch watch(work.nodes);
     sumForces(contact, forces_);
     kick(step, parts.model.axisymmetric(), state);
   }
@@ -93,10 +99,15 @@ void Subcycling::begin(Real dt, Real lookAhead, const Parts& parts, NodalState& 
   }
 }
 
-void Subcycling::updateGroups(const NodalState& state, Real dt)
+/// One that has turned inside out stays as it is: the end of the cycle tells of it.
+void Subcycling::updateGroups(const NodalState& state, Real dt, WorkTimes& work)
 {
   for (Group& group : groups_)
-    group.part.update(state.x, last_, dt);
+  {
+    const WorkWatch watch(work.elements[group.block]);
+    if (group.part.smallestStableStep() > 0)
+      group.part.update(state.x, last_, dt);
+  }
 }
 
 void Subcycling::sumForces(const Contact* contact, const NodeVectors& forces) const
@@ -177,13 +188,13 @@ void Subcycling::kick(Real dt, bool axisymmetric, NodalState& state)
 }
 
 void Subcycling::endElements(Real dt, const NodeLayout& layout, const NodalState& state,
-                             ElementForces& elements)
+                             ElementForces& elements, WorkTimes& work)
 {
   if (count_ == 1)
     return;
   TimedRegion region("coplane::dynamics::subcycling");
   layout.refresh(state.x, last_);
-  updateGroups(state, dt / count_);
+  updateGroups(state, dt / count_, work);
   for (const Group& group : groups_)
     elements.block(group.block).take(group.elements, group.part);
 }
@@ -241,8 +252,8 @@ Array<Real> Subcycling::leastAround(const Parts& parts, const Array<Real>& ofNod
   return around;
 }
 
-/// Nodes that may be substepped: rigid bodies and lines move once in a cycle, and nodal pressures
-/// belong to all elements around.
+/// Nodes that may be substepped: rigid bodies, lines and dashpots act once in a cycle, and nodal
+/// pressures belong to all elements around.
 void Subcycling::findEligible(const Parts& parts)
 {
   const int owned = parts.layout.owned();
@@ -250,11 +261,15 @@ void Subcycling::findEligible(const Parts& parts)
   const bool nodalPressure = std::any_of(
       parts.blocks().begin(), parts.blocks().end(),
       [](const ElementBlock& block) { return block.options().form == ElementForm::NodalPressure; });
-  if (!nodalPressure && parts.bodies().count() == 0 && parts.lines.empty())
+  const Conditions& conditions = parts.model.conditions;
+  if (!nodalPressure && parts.bodies().count() == 0 && parts.lines.empty() &&
+      conditions.absorbing.empty() && conditions.freeFields.empty())
     return;
   const Array<Real> free("coplane::dynamics::free", std::size_t(parts.layout.size()));
   for (int n = 0; n < owned; ++n)
     free(n) = !parts.motion.followsBody(n) && !(parts.lines.stiffnessAt(n) > 0);
+  for (const int n : parts.motion.nodesOfDashpots())
+    free(n) = 0;
   for (std::size_t b = 0; b < parts.blocks().size(); ++b)
     if (parts.blocks()[b].options().form == ElementForm::NodalPressure)
       for (const int n : parts.mesh().blocks[b].connectivity)
@@ -341,17 +356,17 @@ void Subcycling::regroup(Real step, const Parts& parts, NodalState& state, Conta
 {
   TimedRegion region("coplane::dynamics::subcycling");
   countBefore_ = count_;
-  const Real stable = options_.stepFactor;
+  const Real factor = options_.stepFactor;
   count_ = 1;
   while (count_ < 1 << (options_.subcyclingLevels - 1) &&
-         count_ * stable * leastEligible_ < (1 - roundOff) * step)
+         count_ * factor * leastEligible_ < (1 - roundOff) * step)
     count_ *= 2;
   std::int64_t isOther = count_ != countBefore_;
   for (int n = 0; n < state.owned(); ++n)
   {
     const bool was = state.substeps(n) > 1;
     const bool is = count_ > 1 && eligible_[std::size_t(n)] != 0 &&
-                    stable * steps_(n) < (was ? marginToStay : margin) * step;
+                    factor * steps_(n) < (was ? marginToStay : margin) * step;
     isOther |= std::int64_t(is != was);
     state.substeps(n) = is ? count_ : 1;
   }
@@ -385,7 +400,7 @@ void Subcycling::list(const Parts& parts, Contact* contact)
   if (contact)
     contact->substepPairsAt(parts.state.substeps, owned);
   if (int(forces_.extent(0)) != owned)
-    for (NodeVectors* values : {&forces_, &forcesBefore_, &reactionImpulse_, &takenOff_})
+    for (NodeVectors* values : {&forces_, &forcesBefore_, &reactionImpulse_})
       *values = NodeVectors("coplane::dynamics::substeps", std::size_t(owned));
   groups_.clear();
   nodes_.clear();
@@ -473,13 +488,13 @@ void Subcycling::weigh(Real before, Real after, NodalState& state, const Contact
   {
     const Vec3 off = (impulse / kick_) * force;
     set(state.force, n, at(state.force, n) - off);
-    set(takenOff_, n, at(takenOff_, n) + off);
+    set(state.takenOff, n, at(state.takenOff, n) + off);
   };
   for (const std::vector<int>* nodes :
        std::initializer_list<const std::vector<int>*>{&nodes_, &nodesBefore_, &moved})
     for (const int n : *nodes)
     {
-      set(takenOff_, n, {});
+      set(state.takenOff, n, {});
       state.swing(n) = 0;
     }
   substepOfKick_ = (before / countBefore_ + after / count_) / (before + after);
@@ -522,8 +537,8 @@ void Subcycling::endKick(const Parts& parts, NodalState& state)
     // Velocities change by the kick, in which forces that are in balance may not be, and would by
     // all forces at n in a substep.
     const Vec3 change = at(state.v, n) - at(state.vPrevious, n),
-               inSubstep = substepOfKick_ *
-                           (change + (kick_ / state.mass(n)) * withoutHeld(i, at(takenOff_, n)));
+               inSubstep = substepOfKick_ * (change + (kick_ / state.mass(n)) *
+                                                          withoutHeld(i, at(state.takenOff, n)));
     state.swing(n) = 0.125 * state.mass(n) * (dot(change, change) - dot(inSubstep, inSubstep));
   }
 }

@@ -6,13 +6,14 @@
 #include <coplane_dynamics/NodalState.hpp>
 #include <coplane_dynamics/Parts.hpp>
 #include <coplane_dynamics/TimeStep.hpp>
+#include <coplane_dynamics/WorkTimes.hpp>
 
 #include <vector>
 
 namespace coplane
 {
 /// Several steps in a cycle for what allows only small ones, such as elements that have been
-/// crushed (docs/theory/time.md, "Subcycling").
+/// crushed (docs/theory/time-integration.md, "Subcycling").
 ///
 /// Nodes whose stable step is below that of the cycle are *substepped*; so are the elements around
 /// them and the planes of their faces, with the nodes of all of those. In a cycle these take 2^k
@@ -29,22 +30,22 @@ public:
 
   bool acts() const { return options_.subcyclingLevels > 1; }
   int substeps() const { return count_; } ///< in a cycle, 1: nothing is substepped
-  /// Elements and pairs of faces of this rank that are; those of others are counted by them.
-  struct Counts
-  {
-    std::int64_t elements = 0, nodes = 0;
-  };
-  Counts countsHere(const Parts& parts) const;
+  /// Elements of this rank that are substepped.
+  std::int64_t elementsHere(const Parts& parts) const;
 
+  struct Cycle
+  {
+    Real dt;                     ///< [s]
+    Real sinceSearch, lookAhead; ///< when it begins, and that of contact [s]
+  };
   // Of a cycle, in this order. Collective.
   /// All steps of a cycle of length dt but the last. Then substepped nodes are at n still, and have
   /// the velocity that brings them to n + 1 in state.v.
-  /// @param lookAhead of contact [s]
-  void begin(Real dt, Real lookAhead, const Parts& parts, NodalState& state,
-             ElementForces& elements, Contact* contact);
+  void begin(const Cycle& cycle, const Parts& parts, NodalState& state, ElementForces& elements,
+             Contact* contact, WorkTimes& work);
   /// The last step of their elements, at n + 1.
   void endElements(Real dt, const NodeLayout& layout, const NodalState& state,
-                   ElementForces& elements);
+                   ElementForces& elements, WorkTimes& work);
   /// Pairs are others after a search, or elements have died.
   void relist(const Parts& parts, Contact* contact);
   /// The last step, for pairs.
@@ -91,7 +92,7 @@ private:
   /// By owned node: the least of all nodes of the elements around it. @param ofNodes of the layout
   static Array<Real> leastAround(const Parts& parts, const Array<Real>& ofNodes);
   void findEligible(const Parts& parts);
-  void updateGroups(const NodalState& state, Real dt);
+  void updateGroups(const NodalState& state, Real dt, WorkTimes& work);
   void findHolds(const Parts& parts);
   /// The part of a force at nodes_[place] that conditions do not hold.
   Vec3 withoutHeld(std::size_t place, Vec3 force) const;
@@ -110,7 +111,7 @@ private:
   NodeVectors last_;            ///< velocity in the last substep, all nodes of the layout [m/s]
   NodeVectors forces_;          ///< owned nodes [N]
   NodeVectors reactionImpulse_; ///< owned nodes, of the substeps of the last cycle [N s]
-  NodeVectors takenOff_;        ///< by weigh(), owned nodes [N]
+  std::vector<int> reacting_;   ///< which of them may have some
   Real kick_ = 0;               ///< that the last cycle ended with [s]
   Real substepOfKick_ = 1;      ///< of substeps, the same over that [-]
   // Of plan() and regroup(), until the kick.

@@ -464,7 +464,7 @@ HistoryColumns HistoryObserver::columnsOf(const Solver& solver) const
   if (solver.subcycling().acts())
   {
     line.add("substeps", std::int64_t(solver.subcycling().substeps()));
-    line.add("substepped_elements", solver.comm().sum(solver.substepped().elements));
+    line.add("substepped_elements", solver.substeppedElements());
   }
   const std::vector<Real> probes = probeValues(solver);
   const std::vector<Vec3> reactionsOf = reactions(solver);
