@@ -312,26 +312,27 @@ TEST_P(SubcyclingInContact, keepsMomentumWithRigidBodies)
 {
   // A search finds rigid faces beside substepped ones.
   const Comm comm;
-  Mesh mesh;
-  addBox(mesh, "lower", {8, 8, 8}, {0, 0, 0}, {1, 1, 1});
-  moveLayer(mesh, 0.875, 0.97, [](const Vec3& x) { return x.x < 0.3 && x.y < 0.3; });
-  addBox(mesh, "rigid", {2, 2, 2}, {-0.4, 0.0625, 1.06}, {0.5, 0.4, 0.5});
-  Model model = withLevels(rockModel(mesh, comm, 0.25), 4);
-  model.rigidBodyOfNode = rigidBodiesOf(model.mesh, {0, 1}, comm);
-  model.blocks[1].rigid = true;
-  model.blocks[1].velocity = {24, 1, -18};
-  model.skin = 5e-4;
-  model.time.energyTolerance = model.time.contactGainTolerance = infinity;
-  Solver solver(std::move(model), comm);
-  solver.prepare();
-  EXPECT_GT(solver.subcycling().substeps(), 1);
-  for (int i = 0; i < 150; ++i)
+  for (const Real height : {1.013, 1.017, 1.021, 1.026, 1.031})
   {
-    solver.advance();
-    EXPECT_LT(norm(solver.momenta().linearError()), 1e-12 * solver.momenta().magnitude);
+    Mesh mesh;
+    addBox(mesh, "lower", {8, 8, 8}, {0, 0, 0}, {1, 1, 1});
+    moveLayer(mesh, 0.875, 0.97, [](const Vec3& x) { return x.x < 0.3 && x.y < 0.3; });
+    addBox(mesh, "rigid", {2, 2, 2}, {-0.1, 0.0625, height}, {0.4, 0.4, 0.5});
+    Model model = withLevels(rockModel(mesh, comm, 0.25), 4);
+    model.rigidBodyOfNode = rigidBodiesOf(model.mesh, {0, 1}, comm);
+    model.blocks[1].rigid = true;
+    model.blocks[1].velocity = {60, 1, -60};
+    model.skin = 1e-4;
+    model.time.energyTolerance = model.time.contactGainTolerance = infinity;
+    Solver solver(std::move(model), comm);
+    solver.prepare();
+    for (int i = 0; i < 60; ++i)
+    {
+      solver.advance();
+      EXPECT_LT(norm(solver.momenta().linearError()), 1e-12 * solver.momenta().magnitude);
+    }
+    EXPECT_GT(solver.energy().internal, 1e-3 * solver.initialEnergy().kinetic); // they have met
   }
-  EXPECT_GT(solver.searches(), 5);
-  EXPECT_GT(solver.energy().internal, 0.01 * solver.initialEnergy().kinetic); // they have met
 }
 
 TEST_P(SubcyclingInContact, hasTheSameBitsOnAnyRanks)
