@@ -181,6 +181,8 @@ void Solver::advance()
   const Real dt = clock_.nextStep;
   subcycling_.begin({dt, searches_.timeSince(clock_.time), lookAhead()}, parts(), state_, elements_,
                     contact_.get(), work_);
+  if (subcycling_.substeps() > 1)
+    planSearch(); // only now it is known where substepped nodes will be
   drift(dt);
   refresh();
   findForces(dt);
