@@ -84,7 +84,7 @@ case.restarts(name, recipe, with_levels(deck, 5), run, 0.7e-3)
 recipe = {
     "dimension": 2,
     "parts": [
-        {"shape": "box", "block": "lower", "lines": {"x": lines([0, 0.2], [4]), "y": lines([-2, -0.01, 0], [40, 1])}},
+        {"shape": "box", "block": "lower", "lines": {"x": lines([0, 0.2], [4]), "y": lines([-2, -1.99, -0.01, 0], [1, 38, 1])}},
         {"shape": "box", "block": "upper", "lines": {"x": lines([0, 0.2], [4]), "y": lines([0, 2], [40])}},
     ],
     "node_sets": {"bottom": {"where": {"y": -2}}}, "side_sets": {"top": {"where": {"y": 2}}},
@@ -96,11 +96,37 @@ deck = {
     "contact": {"pairs": [{"blocks": ["lower", "upper"], "joint": "bed", "declared": True}]},
     "initial": [{"block": "lower", **stress}, {"block": "upper", **stress}], "gravity": [0, -10, 0],
     "conditions": [{"type": "fixed", "node_set": "bottom"}, {"type": "pressure", "side_set": "top", "value": 1e6}],
-    "time": {"end": 0.02, "subcycling": {"levels": 4}}, "output": {"every": 0.02}, "history": {"every": 0},
+    "time": {"end": 0.02, "subcycling": {"levels": 4}}, "output": {"every": 0.02},
+    "history": {"every": 0, "probes": [{"name": "bottom", "node_set": "bottom"}]},
 }  # fmt: skip
 run = case.run("rest", recipe, deck, load=1e6)
+force = 0.2 * (1e6 + DENSITY * 10 * 4)
+for when, row in (("start", 0), ("end", -1)):
+    case.check(f"rest: reaction at the {when} over the weight and the load", run.history["bottom_reaction_y"][row] / force, 1, 1e-9)
 case.check_within("rest: most substeps", numpy.max(run.history["substeps"]), 2, 8)
 case.check("rest: largest speed at the end [m/s]", numpy.max(numpy.abs(run.results.nodal("velocity_y"))), 0, 1e-9)
+
+# A load comes up on a thin element: it acts in all of its substeps.
+recipe = {
+    "dimension": 2,
+    "parts": [{"shape": "box", "block": "bar", "lines": {"x": lines([0, 0.01, 1], [1, 19]), "y": lines([0, 0.1], [2])}}],
+    "node_sets": {"far": {"where": {"x": 1}}}, "side_sets": {"near": {"where": {"x": 0}}},
+}  # fmt: skip
+deck = {
+    "materials": STONE, "blocks": {"bar": {"material": "stone"}}, "contact": {"enabled": False},
+    "conditions": [
+        {"type": "fixed", "node_set": "far"},
+        {"type": "pressure", "side_set": "near", "value": {"times": [0, 1e-3, 1], "values": [0, 1e5, 1e5]}},
+    ],
+    "time": {"end": 5e-3}, "output": {"every": 5e-3},
+    "history": {"every": 0, "probes": [{"name": "thin", "point": [0.005, 0.05], "variables": ["stress_xx"]}]},
+}  # fmt: skip
+small = case.run("load, small steps", recipe, deck)
+run = case.run("load", recipe, with_levels(deck, 4), energy=1e-2)
+case.check_within("load: most substeps", numpy.max(run.history["substeps"]), 4, 8)
+for what, of in (("least", numpy.min), ("largest", numpy.max)):
+    stress = [of(one.history["thin_stress_xx"]) for one in (small, run)]
+    case.check(f"load: {what} stress of the thin element less that with small steps, over p", (stress[1] - stress[0]) / 1e5, 0, 2e-2)
 
 # What it does not go with.
 recipe, deck = bar(2)

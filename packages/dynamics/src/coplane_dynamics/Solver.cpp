@@ -179,8 +179,10 @@ void Solver::prepare()
 void Solver::advance()
 {
   const Real dt = clock_.nextStep;
-  subcycling_.begin({dt, searches_.timeSince(clock_.time), lookAhead()}, parts(), state_, elements_,
-                    contact_.get(), work_);
+  const auto applyLoads = [this](Real time, Real over)
+  { attempt([&] { motion_->applyLoads(model_.conditions, time, over, state_); }); };
+  subcycling_.begin({dt, searches_.timeSince(clock_.time), lookAhead()}, applyLoads, parts(),
+                    state_, elements_, contact_.get(), work_);
   if (subcycling_.substeps() > 1)
     planSearch(); // only now it is known where substepped nodes will be
   drift(dt);
@@ -601,7 +603,8 @@ void Solver::judge(Observer& observer)
             "cannot. Raise joints.<name>.stiffness_fraction, lower time.step_factor, or use a "
             "material that stiffens under pressure. {}",
             clock_.cycle, clock_.time, searches_.relativeSpeed(),
-            step_.motionInStableStep(searches_.relativeSpeed()), worstEntities())));
+            step_.motionInStableStep(searches_.relativeSpeed(), stableStepOfWaves()),
+            worstEntities())));
   const bool due = clock_.cycle % energyCheckEvery == 0 || isOver();
   if (!due && !contactMayHaveGained_)
     return;
@@ -622,9 +625,7 @@ bool Solver::contactCannotStop() const
   if (!contact_ ||
       stepsThroughSkin * searches_.relativeSpeed() * clock_.nextStep < contact_->skin())
     return false;
-  // Waves pass the smallest elements in a substep.
-  if (!step_.motionIsFasterThan(fastBesideWaves / subcycling_.substeps(),
-                                searches_.relativeSpeed()))
+  if (!step_.motionIsFasterThan(fastBesideWaves, searches_.relativeSpeed(), stableStepOfWaves()))
     return false;
   const ContactCounts counts = contact_->counts();
   return counts.tooDeep > 0 || counts.missed > 0;

@@ -225,6 +225,11 @@ private:
   {
     return {clock_.time, clock_.step, step, relaxation_.dampingTime(clock_)};
   }
+  /// Of the smallest elements, whatever the cycle [s].
+  Real stableStepOfWaves() const
+  {
+    return subcycling_.acts() ? subcycling_.leastStep() : step_.chosenFrom();
+  }
   /// Whether bodies are fast beside the waves in them and contact has lost hold. Collective.
   bool contactCannotStop() const;
   /// Fails, after the observers have finished, when the run cannot go on. Collective.

@@ -50,8 +50,9 @@ std::int64_t Subcycling::elementsHere(const Parts& parts) const
   return count;
 }
 
-void Subcycling::begin(const Cycle& cycle, const Parts& parts, NodalState& state,
-                       ElementForces& elements, Contact* contact, WorkTimes& work)
+void Subcycling::begin(const Cycle& cycle, const Loads& applyLoads, const Parts& parts,
+                       NodalState& state, ElementForces& elements, Contact* contact,
+                       WorkTimes& work)
 {
   for (const int n : std::exchange(reacting_, {}))
     set(reactionImpulse_, n, {});
@@ -87,6 +88,7 @@ void Subcycling::begin(const Cycle& cycle, const Parts& parts, NodalState& state
       contact->updateSubstepped(state.x, {last_, step});
     }
     const WorkWatch watch(work.nodes);
+    applyLoads(parts.clock.time + substep * step, step);
     sumForces(contact, forces_);
     kick(step, parts.model.axisymmetric(), state);
   }
@@ -168,7 +170,8 @@ void Subcycling::kick(Real dt, bool axisymmetric, NodalState& state)
     const int n = nodes_[i];
     if (!(state.mass(n) > 0))
       continue;
-    const Vec3 force = at(forces_, n) + at(state.steadyForce, n), before = at(last_, n);
+    const Vec3 load = at(state.external, n), before = at(last_, n);
+    const Vec3 force = at(forces_, n) + at(state.steadyForce, n) + load;
     Vec3 free = withoutHeld(i, force);
     Vec3 after = before + (dt / state.mass(n)) * free;
     if (axisymmetric && after.x < -state.x(n, 0) / dt) // comes to the axis and no further
@@ -180,9 +183,10 @@ void Subcycling::kick(Real dt, bool axisymmetric, NodalState& state)
     const Vec3 path = (0.5 * dt) * (before + after);
     set(last_, n, after);
     set(reactionImpulse_, n, at(reactionImpulse_, n) + dt * held);
-    set(state.impulse, n, at(state.impulse, n) + dt * held);
-    set(state.angularImpulse, n, at(state.angularImpulse, n) + dt * cross(at(state.x, n), held));
-    state.externalWork(n) += dot(held, path);
+    const Vec3 outer = load + held;
+    set(state.impulse, n, at(state.impulse, n) + dt * outer);
+    set(state.angularImpulse, n, at(state.angularImpulse, n) + dt * cross(at(state.x, n), outer));
+    state.externalWork(n) += dot(outer, path);
     state.totalWork(n) += dot(free, path);
   }
 }
@@ -318,6 +322,7 @@ Real Subcycling::plan(const Parts& parts, const TimeStep& step)
   }
   parts.comm.min(bounds);
   leastEligible_ = bounds[0];
+  least_ = std::min(bounds[0], bounds[1]);
   // Lengths of a cycle to choose from.
   const int choices = perLevel * (options_.subcyclingLevels - 1) + 1;
   const auto length = [&](int choice)
@@ -469,6 +474,7 @@ void Subcycling::weigh(Real before, Real after, NodalState& state, const Contact
   const bool isRegrouped = std::exchange(isRegrouped_, false);
   const std::vector<int> moved = std::exchange(moved_, {});
   kick_ = 0.5 * (before + after);
+  isStart_ = before == 0;
   if (!isRegrouped)
   {
     countBefore_ = count_;
@@ -483,13 +489,16 @@ void Subcycling::weigh(Real before, Real after, NodalState& state, const Contact
              lateAfter = 0.5 * after * (1 - 1.0 / count_);
   std::vector<Vec3> slow;
   for (const int n : nodes_)
-    slow.push_back(at(state.force, n) + at(state.external, n) - at(forces_, n));
-  const auto takeOff = [&](int n, Real impulse, const Vec3& force)
+    slow.push_back(at(state.force, n) - at(forces_, n));
+  const auto takeOff = [&](const NodeVectors& from, int n, Real impulse, const Vec3& force)
   {
     const Vec3 off = (impulse / kick_) * force;
-    set(state.force, n, at(state.force, n) - off);
+    set(from, n, at(from, n) - off);
     set(state.takenOff, n, at(state.takenOff, n) + off);
   };
+  std::vector<Vec3> loads;
+  for (const int n : nodes_)
+    loads.push_back(at(state.external, n));
   for (const std::vector<int>* nodes :
        std::initializer_list<const std::vector<int>*>{&nodes_, &nodesBefore_, &moved})
     for (const int n : *nodes)
@@ -500,12 +509,13 @@ void Subcycling::weigh(Real before, Real after, NodalState& state, const Contact
   substepOfKick_ = (before / countBefore_ + after / count_) / (before + after);
   if (countBefore_ > 1)
     for (const int n : nodesBefore_)
-      takeOff(n, lateBefore, at(forcesBefore, n));
+      takeOff(state.force, n, lateBefore, at(forcesBefore, n));
   std::vector<char> isMoved(std::size_t(state.owned()), 0);
   for (const int n : moved)
   {
     isMoved[std::size_t(n)] = 1;
-    takeOff(n, lateBefore, at(state.steadyForce, n));
+    takeOff(state.force, n, lateBefore, at(state.steadyForce, n));
+    takeOff(state.external, n, lateBefore, at(state.external, n));
     set(state.underWay, n, {});
     if (placeOf_[std::size_t(n)] < 0)
       for (const NodeVectors& steady : {state.steadyMean, state.steadyForce})
@@ -520,7 +530,8 @@ void Subcycling::weigh(Real before, Real after, NodalState& state, const Contact
     set(state.steadyMean, n, mean);
     set(state.steadyForce, n, steady);
     set(state.underWay, n, lateAfter * steady);
-    takeOff(n, lateAfter, at(forces_, n) + steady);
+    takeOff(state.force, n, lateAfter, at(forces_, n) + steady);
+    takeOff(state.external, n, lateAfter, loads[i]);
   }
 }
 
@@ -529,6 +540,8 @@ void Subcycling::endKick(const Parts& parts, NodalState& state)
   if (nodes_.empty())
     return;
   findHolds(parts);
+  if (isStart_)
+    reacting_ = nodes_;
   for (std::size_t i = 0; i < nodes_.size(); ++i)
   {
     const int n = nodes_[i];
@@ -539,6 +552,11 @@ void Subcycling::endKick(const Parts& parts, NodalState& state)
     const Vec3 change = at(state.v, n) - at(state.vPrevious, n),
                inSubstep = substepOfKick_ * (change + (kick_ / state.mass(n)) *
                                                           withoutHeld(i, at(state.takenOff, n)));
+    if (isStart_) // what holds it comes in substeps, of which there have been none
+    {
+      const Vec3 off = at(state.takenOff, n);
+      set(reactionImpulse_, n, kick_ * (withoutHeld(i, off) - off));
+    }
     state.swing(n) = 0.125 * state.mass(n) * (dot(change, change) - dot(inSubstep, inSubstep));
   }
 }

@@ -8,6 +8,7 @@
 #include <coplane_dynamics/TimeStep.hpp>
 #include <coplane_dynamics/WorkTimes.hpp>
 
+#include <functional>
 #include <vector>
 
 namespace coplane
@@ -18,7 +19,8 @@ namespace coplane
 /// Nodes whose stable step is below that of the cycle are *substepped*; so are the elements around
 /// them and the planes of their faces, with the nodes of all of those. In a cycle these take 2^k
 /// steps, in which every force acts as an impulse at its own instants: that of an element or plane
-/// that is substepped at the end of each of its steps, any other at the end of cycles. So momentum
+/// that is substepped, and a load on a node that is, at the end of each of its steps, any other at
+/// the end of cycles. So momentum
 /// is exact. A force counts in the kick by the steps before and after it, half of each.
 ///
 /// Nodes that are held in balance by forces of both kinds would swing within each cycle. So what is
@@ -41,8 +43,12 @@ public:
   // Of a cycle, in this order. Collective.
   /// All steps of a cycle of length dt but the last. Then substepped nodes are at n still, and have
   /// the velocity that brings them to n + 1 in state.v.
-  void begin(const Cycle& cycle, const Parts& parts, NodalState& state, ElementForces& elements,
-             Contact* contact, WorkTimes& work);
+  /// @param applyLoads puts the loads of conditions at a time [s] into state.external, as means
+  /// over
+  ///        so long [s]
+  using Loads = std::function<void(Real time, Real over)>;
+  void begin(const Cycle& cycle, const Loads& applyLoads, const Parts& parts, NodalState& state,
+             ElementForces& elements, Contact* contact, WorkTimes& work);
   /// The last step of their elements, at n + 1.
   void endElements(Real dt, const NodeLayout& layout, const NodalState& state,
                    ElementForces& elements, WorkTimes& work);
@@ -57,6 +63,7 @@ public:
   /// nodes now [s].
   Real plan(const Parts& parts, const TimeStep& step);
   Real planned() const { return planned_; } ///< by the last plan [s]
+  Real leastStep() const { return least_; } ///< stable, of all nodes at the last plan [s]
   /// Substeps what a cycle of that length needs, by the stable steps that plan() has found.
   void regroup(Real step, const Parts& parts, NodalState& state, Contact* contact);
   /// Takes from the forces of nodes, for the kick between two cycles, what substepped elements and
@@ -76,6 +83,7 @@ public:
   static void forEachNumber(Self& self, F&& number)
   {
     number(self.planned_);
+    number(self.least_);
   }
 
 private:
@@ -102,7 +110,7 @@ private:
 
   TimeOptions options_;
   int count_ = 1;
-  Real planned_ = 0; ///< [s]
+  Real planned_ = 0, least_ = 0; ///< [s]
   std::vector<Group> groups_;
   std::vector<int> nodes_;      ///< owned, ascending: all corners of substepped elements and pairs
   std::vector<int> placeOf_;    ///< in nodes_, by owned node; -1: none
@@ -119,6 +127,7 @@ private:
   std::vector<char> eligible_; ///< by owned node: may be substepped
   Real leastEligible_ = infinity;
   bool isRegrouped_ = false;
+  bool isStart_ = false; ///< the last kick was the first half of one
   int countBefore_ = 1;
   std::vector<int> nodesBefore_;
   NodeVectors forcesBefore_; ///< owned nodes [N]

@@ -62,16 +62,18 @@ public:
   /// A bound of the first step, for what looks ahead before it is known, from `elements`, the
   /// stable step of the elements of all ranks [s].
   void boundFirst(Real elements, const MotionLimits& limits, Real relativeSpeed);
-  /// Whether the motion of faces bounds the step below this part of what the stable step, with its
-  /// safety factor, allowed when the last step was chosen.
-  bool motionIsFasterThan(Real part, Real relativeSpeed) const
+  /// Stable step that the last step was chosen from [s].
+  Real chosenFrom() const { return stable_; }
+  /// Whether the motion of faces bounds the step below this part of what a stable step, with its
+  /// safety factor, allows.
+  bool motionIsFasterThan(Real part, Real relativeSpeed, Real stable) const
   {
-    return motionStep(limits_.thinnest, relativeSpeed) < part * options_.stepFactor * stable_;
+    return motionStep(limits_.thinnest, relativeSpeed) < part * options_.stepFactor * stable;
   }
-  /// How far nodes move against each other in the stable step, over the thinnest element [-].
-  Real motionInStableStep(Real relativeSpeed) const
+  /// How far nodes move against each other in a stable step, over the thinnest element [-].
+  Real motionInStableStep(Real relativeSpeed, Real stable) const
   {
-    return limits_.thinnest > 0 ? relativeSpeed * stable_ / limits_.thinnest : 0;
+    return limits_.thinnest > 0 ? relativeSpeed * stable / limits_.thinnest : 0;
   }
   /// Bound for the step after the one in progress [s].
   Real largestNext() const { return largestNext_; }
