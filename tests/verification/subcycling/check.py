@@ -97,7 +97,7 @@ deck = {
     "initial": [{"block": "lower", **stress}, {"block": "upper", **stress}], "gravity": [0, -10, 0],
     "conditions": [{"type": "fixed", "node_set": "bottom"}, {"type": "pressure", "side_set": "top", "value": 1e6}],
     "time": {"end": 0.02, "subcycling": {"levels": 4}}, "output": {"every": 0.02},
-    "history": {"every": 0, "probes": [{"name": "bottom", "node_set": "bottom"}]},
+    "history": {"every": 0, "probes": [{"name": "bottom", "node_set": "bottom", "reaction": True}]},
 }  # fmt: skip
 run = case.run("rest", recipe, deck, load=1e6)
 force = 0.2 * (1e6 + DENSITY * 10 * 4)
