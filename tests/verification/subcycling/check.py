@@ -119,7 +119,7 @@ deck = {
         {"type": "pressure", "side_set": "near", "value": {"times": [0, 1e-3, 1], "values": [0, 1e5, 1e5]}},
     ],
     "time": {"end": 5e-3}, "output": {"every": 5e-3},
-    "history": {"every": 0, "probes": [{"name": "thin", "point": [0.005, 0.05], "variables": ["stress_xx"]}]},
+    "history": {"every": 0, "probes": [{"name": "thin", "point": [0.005, 0.05, 0], "variables": ["stress_xx"]}]},
 }  # fmt: skip
 small = case.run("load, small steps", recipe, deck)
 run = case.run("load", recipe, with_levels(deck, 4), energy=1e-2)
