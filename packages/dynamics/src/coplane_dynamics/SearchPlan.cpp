@@ -76,7 +76,7 @@ void SearchPlan::start(const Parts& parts)
   relativeSpeed_ = diagonal(range.data());
 }
 
-bool SearchPlan::look(const Parts& parts, bool trouble)
+bool SearchPlan::look(const Parts& parts, bool trouble, bool again)
 {
   // The next positions are known now: a search falls due when one may be needed by then, from exact
   // bounds on the relative displacement of any two nodes since the last search, and on what that
@@ -119,8 +119,9 @@ bool SearchPlan::look(const Parts& parts, bool trouble)
   passedOnHasChanged_ = passedOnHasChanged_ || range[24] > 0;
   const auto comes = [&](int every) { return every > 0 && (clock.cycle + 1) % every == 0; };
   isDue_ = comes(every_);
+  // A run that has been restarted does not know any more what has changed in the last cycle.
   isPassingDue_ =
-      range[25] > 0 || (every_ == automatic && ((comes(mostOften) && passedOnHasChanged_) ||
+      (again && isPassingDue_) || range[25] > 0 || (every_ == automatic && ((comes(mostOften) && passedOnHasChanged_) ||
                                                 !isWithin(0.5 * skin, &range[12])));
   // What lies on the way that the search foresaw is covered, and so is what has stayed where it
   // was.

@@ -34,7 +34,8 @@ public:
 
   /// Whether a search is needed before the forces of the next cycle. The same reduction tells all
   /// ranks whether one is in trouble, and so does what it returns. Collective.
-  bool look(const Parts& parts, bool trouble);
+  /// @param again for the same cycle: what was due before stays so
+  bool look(const Parts& parts, bool trouble, bool again = false);
 
   bool isDue() const { return isDue_; }
   /// Whether pairs are to learn what others pass on, if there is no search.

@@ -184,7 +184,7 @@ void Solver::advance()
   subcycling_.begin({dt, searches_.timeSince(clock_.time), lookAhead()}, applyLoads, parts(),
                     state_, elements_, contact_.get(), work_);
   if (subcycling_.substeps() > 1)
-    planSearch(); // only now it is known where substepped nodes will be
+    planSearch(true); // only now it is known where substepped nodes will be
   drift(dt);
   refresh();
   findForces(dt);
@@ -497,9 +497,9 @@ void Solver::relax(Real step)
     relaxation_.end(parts());
 }
 
-void Solver::planSearch()
+void Solver::planSearch(bool again)
 {
-  failed_ = searches_.look(parts(), trouble_.has_value());
+  failed_ = searches_.look(parts(), trouble_.has_value(), again);
 }
 
 WorkTimes Solver::takeWorkTimes()

@@ -181,7 +181,7 @@ private:
   Real chooseStep(Real stable, const MotionLimits& limits); ///< collective
   void kick(Real step);
   void relax(Real step);
-  void planSearch();
+  void planSearch(bool again = false); ///< for the same cycle
   // Of findForces. Collective.
   bool erode(Real dt); ///< whether elements have died on some rank, or faces are others
   void search(Real time, bool again = false);
