@@ -20,8 +20,8 @@ namespace coplane
 /// them and the planes of their faces, with the nodes of all of those. In a cycle these take 2^k
 /// steps, in which every force acts as an impulse at its own instants: that of an element or plane
 /// that is substepped, and a load on a node that is, at the end of each of its steps, any other at
-/// the end of cycles. So momentum
-/// is exact. A force counts in the kick by the steps before and after it, half of each.
+/// the end of cycles. So momentum is exact. A force counts in the kick between two cycles by the
+/// steps before and after it, half of each.
 ///
 /// Nodes that are held in balance by forces of both kinds would swing within each cycle. So what is
 /// steady of the others is taken over by all substeps, and only the rest acts at the end of cycles.
@@ -35,6 +35,8 @@ public:
   /// Elements of this rank that are substepped.
   std::int64_t elementsHere(const Parts& parts) const;
 
+  /// Puts the loads of conditions at a time, as means over so long, into state.external [s].
+  using Loads = std::function<void(Real time, Real over)>;
   struct Cycle
   {
     Real dt;                     ///< [s]
@@ -43,10 +45,6 @@ public:
   // Of a cycle, in this order. Collective.
   /// All steps of a cycle of length dt but the last. Then substepped nodes are at n still, and have
   /// the velocity that brings them to n + 1 in state.v.
-  /// @param applyLoads puts the loads of conditions at a time [s] into state.external, as means
-  /// over
-  ///        so long [s]
-  using Loads = std::function<void(Real time, Real over)>;
   void begin(const Cycle& cycle, const Loads& applyLoads, const Parts& parts, NodalState& state,
              ElementForces& elements, Contact* contact, WorkTimes& work);
   /// The last step of their elements, at n + 1.
