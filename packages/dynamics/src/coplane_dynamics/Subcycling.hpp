@@ -42,15 +42,16 @@ public:
     Real dt;                     ///< [s]
     Real sinceSearch, lookAhead; ///< when it begins, and that of contact [s]
   };
-  // Of a cycle, in this order. Collective.
-  /// All steps of a cycle of length dt but the last. Then substepped nodes are at n still, and have
-  /// the velocity that brings them to n + 1 in state.v.
+  // Of a cycle, in this order:
+
+  /// All steps of a cycle but the last. Then substepped nodes are at n still, and have the velocity
+  /// that brings them to n + 1 in state.v. Collective.
   void begin(const Cycle& cycle, const Loads& applyLoads, const Parts& parts, NodalState& state,
              ElementForces& elements, Contact* contact, WorkTimes& work);
-  /// The last step of their elements, at n + 1.
+  /// The last step of their elements, at n + 1. Collective.
   void endElements(Real dt, const NodeLayout& layout, const NodalState& state,
                    ElementForces& elements, WorkTimes& work);
-  /// Pairs are others after a search, or elements have died.
+  /// Pairs are others after a search, or elements have died. Collective.
   void relist(const Parts& parts, Contact* contact);
   /// The last step, for pairs.
   Substep lastStep(Real dt) const { return {last_, dt / count_}; }
@@ -58,20 +59,21 @@ public:
   void endMotion(NodalState& state);
 
   /// The stable step of a cycle that has the most done in the least work, from the stable steps of
-  /// nodes now [s].
+  /// nodes now [s]. Collective.
   Real plan(const Parts& parts, const TimeStep& step);
   Real planned() const { return planned_; } ///< by the last plan [s]
   Real leastStep() const { return least_; } ///< stable, of all nodes at the last plan [s]
   /// Substeps what a cycle of that length needs, by the stable steps that plan() has found.
+  /// Collective.
   void regroup(Real step, const Parts& parts, NodalState& state, Contact* contact);
-  /// Takes from the forces of nodes, for the kick between two cycles, what substepped elements and
-  /// planes give in other steps [s].
+  /// Takes from the forces of nodes and loads on them, for the kick between two cycles of these
+  /// lengths [s], what comes in other substeps.
   void weigh(Real before, Real after, NodalState& state, const Contact* contact);
   /// After it, when the next step is known.
   void endKick(const Parts& parts, NodalState& state);
 
-  /// What symmetry has held owned nodes with in the substeps of the last cycle, part of the mean of
-  /// it [N].
+  /// What conditions have held an owned node with in the substeps of the last cycle, as part of the
+  /// mean over a cycle [N].
   Vec3 reaction(int node) const;
 
   /// From state.substeps of owned nodes. Collective.
