@@ -120,9 +120,9 @@ bool SearchPlan::look(const Parts& parts, bool trouble, bool again)
   const auto comes = [&](int every) { return every > 0 && (clock.cycle + 1) % every == 0; };
   isDue_ = comes(every_);
   // A run that has been restarted does not know any more what has changed in the last cycle.
-  isPassingDue_ =
-      (again && isPassingDue_) || range[25] > 0 || (every_ == automatic && ((comes(mostOften) && passedOnHasChanged_) ||
-                                                !isWithin(0.5 * skin, &range[12])));
+  isPassingDue_ = (again && isPassingDue_) || range[25] > 0 ||
+                  (every_ == automatic && ((comes(mostOften) && passedOnHasChanged_) ||
+                                           !isWithin(0.5 * skin, &range[12])));
   // What lies on the way that the search foresaw is covered, and so is what has stayed where it
   // was.
   if (!isWithin(0.5 * skin, moved) && !isWithin(0.5 * skin, strayed))
