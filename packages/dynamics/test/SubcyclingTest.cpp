@@ -198,6 +198,8 @@ TEST(SubcycledBar, hasNoReactionsOfSubstepsThatHaveEnded)
   EXPECT_GT(solver.subcycling().substeps(), 1);
   cycles(solver, 300);
   EXPECT_GT(solver.erosion().elements, 0);
+  EXPECT_EQ(solver.subcycling().substeps(), 1);
+  EXPECT_EQ(largest(solver.state().takenOff, solver.layout().owned(), comm), 0);
   for (const int n : end)
     EXPECT_EQ(norm(solver.reaction(n)), 0);
   EXPECT_LT(norm(solver.momenta().linearError()), 1e-12 * solver.momenta().magnitude);
@@ -310,29 +312,28 @@ TEST_P(SubcyclingInContact, keepsMomentumWhereElementsDieAndSearchesCome)
 
 TEST_P(SubcyclingInContact, keepsMomentumWithRigidBodies)
 {
-  // A search finds rigid faces beside substepped ones.
+  // A rigid body comes to substepped elements, which it stops from being so.
   const Comm comm;
-  for (const Real height : {1.013, 1.017, 1.021, 1.026, 1.031})
+  Mesh mesh;
+  addBox(mesh, "lower", {8, 8, 8}, {0, 0, 0}, {1, 1, 1});
+  moveLayer(mesh, 0.875, 0.97, [](const Vec3& x) { return x.x < 0.3 && x.y < 0.3; });
+  addBox(mesh, "rigid", {2, 2, 2}, {-0.4, 0.0625, 1.06}, {0.5, 0.4, 0.5});
+  Model model = withLevels(rockModel(mesh, comm, 0.25), 4);
+  model.rigidBodyOfNode = rigidBodiesOf(model.mesh, {0, 1}, comm);
+  model.blocks[1].rigid = true;
+  model.blocks[1].velocity = {24, 1, -18};
+  model.skin = 5e-4;
+  model.time.energyTolerance = model.time.contactGainTolerance = infinity;
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  EXPECT_GT(solver.subcycling().substeps(), 1);
+  for (int i = 0; i < 150; ++i)
   {
-    Mesh mesh;
-    addBox(mesh, "lower", {8, 8, 8}, {0, 0, 0}, {1, 1, 1});
-    moveLayer(mesh, 0.875, 0.97, [](const Vec3& x) { return x.x < 0.3 && x.y < 0.3; });
-    addBox(mesh, "rigid", {2, 2, 2}, {-0.1, 0.0625, height}, {0.4, 0.4, 0.5});
-    Model model = withLevels(rockModel(mesh, comm, 0.25), 4);
-    model.rigidBodyOfNode = rigidBodiesOf(model.mesh, {0, 1}, comm);
-    model.blocks[1].rigid = true;
-    model.blocks[1].velocity = {60, 1, -60};
-    model.skin = 1e-4;
-    model.time.energyTolerance = model.time.contactGainTolerance = infinity;
-    Solver solver(std::move(model), comm);
-    solver.prepare();
-    for (int i = 0; i < 60; ++i)
-    {
-      solver.advance();
-      EXPECT_LT(norm(solver.momenta().linearError()), 1e-12 * solver.momenta().magnitude);
-    }
-    EXPECT_GT(solver.energy().internal, 1e-3 * solver.initialEnergy().kinetic); // they have met
+    solver.advance();
+    EXPECT_LT(norm(solver.momenta().linearError()), 1e-12 * solver.momenta().magnitude);
   }
+  EXPECT_GT(solver.searches(), 5);
+  EXPECT_GT(solver.energy().internal, 0.01 * solver.initialEnergy().kinetic); // they have met
 }
 
 TEST_P(SubcyclingInContact, hasTheSameBitsOnAnyRanks)

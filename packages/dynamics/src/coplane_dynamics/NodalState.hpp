@@ -46,8 +46,8 @@ struct NodalState
   /// Part of the momentum that it gives to them until the middle of the cycle, but comes later [N
   /// s].
   NodeVectors underWay;
-  /// What `force` has less than all forces at n, because it is the mean of the kick, and impulses
-  /// of substeps come at other times [N].
+  /// What `force` and `external` have less than all forces at n, because they are means over the
+  /// kick, and impulses of substeps come at other times [N].
   NodeVectors takenOff;
   /// What m/2 v(n-1/2).v(n+1/2) of them lacks of the kinetic energy at n, because forces that are
   /// in balance act at different times in a cycle [J].

@@ -15,7 +15,7 @@ constexpr Real margin = 1.15, marginToStay = 1.3;
 /// What a substep of a node costs over what a node costs in a cycle: those that are substepped are
 /// in contact more often than others.
 constexpr Real costOfSubstep = 1.5;
-constexpr Real worthWhile = 0.9; ///< of the work without substeps: what a plan has to save
+constexpr Real worthWhile = 0.9; ///< of the work without substeps: a plan has to do with less
 constexpr int perLevel = 4; ///< lengths of a cycle that plan() chooses from, between powers of two
 constexpr Real roundOff = 1e-12;
 
@@ -396,6 +396,7 @@ void Subcycling::restore(const Parts& parts, NodalState& state, Contact* contact
   parts.layout.refresh(state.substeps);
   list(parts, contact);
   findHolds(parts);
+  weighed_ = nodes_;
 }
 
 /// What is substepped, from the steps of nodes.
@@ -473,6 +474,11 @@ void Subcycling::weigh(Real before, Real after, NodalState& state, const Contact
 {
   const bool isRegrouped = std::exchange(isRegrouped_, false);
   const std::vector<int> moved = std::exchange(moved_, {});
+  for (const int n : std::exchange(weighed_, {}))
+  {
+    set(state.takenOff, n, {});
+    state.swing(n) = 0;
+  }
   kick_ = 0.5 * (before + after);
   isStart_ = before == 0;
   if (!isRegrouped)
@@ -499,13 +505,9 @@ void Subcycling::weigh(Real before, Real after, NodalState& state, const Contact
   std::vector<Vec3> loads;
   for (const int n : nodes_)
     loads.push_back(at(state.external, n));
-  for (const std::vector<int>* nodes :
-       std::initializer_list<const std::vector<int>*>{&nodes_, &nodesBefore_, &moved})
-    for (const int n : *nodes)
-    {
-      set(state.takenOff, n, {});
-      state.swing(n) = 0;
-    }
+  weighed_ = nodes_;
+  weighed_.insert(weighed_.end(), nodesBefore_.begin(), nodesBefore_.end());
+  weighed_.insert(weighed_.end(), moved.begin(), moved.end());
   substepOfKick_ = (before / countBefore_ + after / count_) / (before + after);
   if (countBefore_ > 1)
     for (const int n : nodesBefore_)

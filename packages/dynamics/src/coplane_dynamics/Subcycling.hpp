@@ -35,7 +35,8 @@ public:
   /// Elements of this rank that are substepped.
   std::int64_t elementsHere(const Parts& parts) const;
 
-  /// Puts the loads of conditions at a time, as means over so long, into state.external [s].
+  /// Puts the loads of conditions at a time, as means over so long, into state.external (times in
+  /// s).
   using Loads = std::function<void(Real time, Real over)>;
   struct Cycle
   {
@@ -120,6 +121,7 @@ private:
   NodeVectors forces_;          ///< owned nodes [N]
   NodeVectors reactionImpulse_; ///< owned nodes, of the substeps of the last cycle [N s]
   std::vector<int> reacting_;   ///< which of them may have some
+  std::vector<int> weighed_;    ///< those of which the last kick has not had all
   Real kick_ = 0;               ///< that the last cycle ended with [s]
   Real substepOfKick_ = 1;      ///< of substeps, the same over that [-]
   // Of plan() and regroup(), until the kick.
