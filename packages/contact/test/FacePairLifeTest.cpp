@@ -245,11 +245,11 @@ TEST_P(StepF_CreatePlane, aFaceThatSlidesOnOverTheSameSurfaceMeetsItAsDeepAsItLi
 
 namespace
 {
-/// A segment that has carried at a depth of 0.6 of the limit goes where it is told, and comes back
-/// to share `width`, `depth` deep.
-PairPlane afterItsReturn(const Vec3& away, Real width, Real depth, unsigned turns)
+/// A segment that shares nothing with another one comes to share `width` with it, `depth` deep.
+PairPlane afterItCameAside(Real width, Real depth, unsigned turns, Pairing pairing = Pairing::Usual)
 {
   PairPlane plane = touchingPlane(1e3);
+  plane.pairing = pairing;
   plane.depthLimit = .1;
   plane.turns = std::uint8_t(turns);
   const auto at = [&](const Vec3& place)
@@ -258,31 +258,57 @@ PairPlane afterItsReturn(const Vec3& away, Real width, Real depth, unsigned turn
     const FaceNodes b = face({place, place + Vec3{1, 0, 0}});
     updatePlane<2>(plane, a, b, ContactOptions::with(ContactOptions::Forces::Potential), 1e-3);
   };
-  plane.area = 1;
-  at({.9, -.06, 0});
-  EXPECT_NEAR(plane.forceOn(1).y, 6, 1e-10);
-  at(away);
+  at({1.1, -.06, 0});
   EXPECT_EQ(plane.area, 0.0);
   at({1 - width, -depth, 0});
   return plane;
 }
+/// The same of one that lies behind the other one and turns until they are opposed, `angle` past
+/// the right angle.
+PairPlane afterItTurned(Real angle, Real depth, unsigned turns)
+{
+  PairPlane plane = touchingPlane(1e3);
+  plane.depthLimit = .1;
+  plane.turns = std::uint8_t(turns);
+  const auto at = [&](Real turned)
+  {
+    const FaceNodes a = face({{1, 0, 0}, {0, 0, 0}});
+    const Vec3 from{.5, -depth, 0}, to = Vec3{std::sin(turned), std::cos(turned), 0};
+    updatePlane<2>(plane, a, face({from, from + .4 * to}),
+                   ContactOptions::with(ContactOptions::Forces::Potential), 1e-3);
+  };
+  at(-.01);
+  EXPECT_EQ(plane.area, 0.0);
+  at(angle);
+  return plane;
+}
 } // namespace
 
-TEST(RefusalOfThePotential, whatPartsOverALineOfTheMeshComesBackOverIt)
+TEST(RefusalOfThePotential, whatBeginsWithLittleIsNotDeepWhereItsSurfaceGoesOn)
 {
-  // It was refused, and a block that was led to and fro over lines of the mesh fell through its
-  // floor. Between edges at which both surfaces turn it is another pair that meets.
-  const Vec3 aside{1.1, -.06, 0}, up{.9, .01, 0};
+  // It was refused, and a block that was led over lines of the mesh, or whose side rolled onto its
+  // floor, fell through it. Between edges at which both surfaces turn it is another pair that
+  // meets.
   for (const unsigned turns : {0xFFu, 0x0Fu, 0xF0u, 0u})
   {
-    const PairPlane plane = afterItsReturn(aside, .01, .06, turns);
+    const PairPlane plane = afterItCameAside(.01, .06, turns);
     EXPECT_EQ(plane.isRefused(), turns == 0xFF);
     EXPECT_NEAR(plane.forceOn(1).y, turns == 0xFF ? 0 : .6, 1e-10);
     EXPECT_FALSE(plane.isInherited());
   }
-  EXPECT_TRUE(afterItsReturn(aside, .06, .06, 0).isRefused()); // at once by more than a twentieth
-  EXPECT_TRUE(afterItsReturn(aside, .01, .11, 0).isRefused()); // beyond the depth limit
-  EXPECT_TRUE(afterItsReturn(up, .01, .06, 0).isRefused());    // it has opened
+  EXPECT_FALSE(afterItCameAside(.09, .06, 0).isRefused());
+  EXPECT_TRUE(afterItCameAside(.11, .06, 0).isRefused()); // at once by more than a tenth
+  EXPECT_FALSE(afterItCameAside(.01, .14, 0).isRefused());
+  EXPECT_TRUE(afterItCameAside(.01, .16, 0).isRefused()); // beyond one and a half depth limits
+  for (const Pairing pairing : {Pairing::OfOneBody, Pairing::Stiff})
+    EXPECT_TRUE(afterItCameAside(.01, .06, 0, pairing).isRefused());
+}
+
+TEST(RefusalOfThePotential, whatTurnsUntilItIsOpposedBeginsWithLittle)
+{
+  EXPECT_FALSE(afterItTurned(.01, .06, 0).isRefused());
+  EXPECT_TRUE(afterItTurned(.9, .06, 0).isRefused()); // at once by a right angle
+  EXPECT_TRUE(afterItTurned(.01, .16, 0).isRefused());
 }
 
 TEST_P(StepF_CreatePlane, aPlaneThatOpenedBeginsAnewAtItsSurfaceOnly)

@@ -258,7 +258,7 @@ TEST(RigidBodies, countFourfoldInTheStepWhereTheyTouchEachOther)
       if (const Plane& plane = solver.contact().planes()[p]; plane.face[0] >= 0)
       {
         ++planes;
-        EXPECT_EQ(plane.stiff, both);
+        EXPECT_EQ(plane.pairing == Pairing::Stiff, both);
       }
     EXPECT_GT(comm.max(planes), 0);
   }

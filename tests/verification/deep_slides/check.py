@@ -2,6 +2,7 @@
 
 import numpy
 from coplanetest import Case
+from coplanetest.slides import slid_block
 
 case = Case("deep_slides", __file__)
 
@@ -70,48 +71,32 @@ for name, dimension, stroke, press, joint, how in SCENES:
         case.same_bits(name, recipe, deck, run)
 
 
-def punch(ratio, slide, friction, n=1, dimension=2):
-    """A soft block is pressed on a slab of the same, to a part of its height, and slid."""
-    third, flat = ([0.1], [2]) if dimension == 3 else ([], [])
-    low = [0.0] * len(third)
-    recipe = {
-        "dimension": dimension,
-        "parts": [
-            {"shape": "box", "block": "slab", "min": [-0.2, 0, *low], "size": [0.6, 0.1, *third], "divisions": [14 * n, 3 * n, *[3 for _ in flat]]},
-            {"shape": "box", "block": "punch", "min": [0.0, 0.1, *low], "size": [0.2, 0.1, *third], "divisions": [4 * n, 3 * n, *flat]},
-        ],
-        "node_sets": {"base": {"block": "slab", "where": {"y": 0}}, "top": {"block": "punch", "where": {"y": 0.2}}},
-    }  # fmt: skip
-    deck = {
-        "materials": {"rubber": {"model": "neo_hookean", "density": 1000, "youngs_modulus": 1e6, "poisson_ratio": 0.3}},
-        "blocks": {"slab": {"material": "rubber"}, "punch": {"material": "rubber"}},
-        "joints": {"touch": {"model": "penalty", "friction": friction}},
-        "contact": {"default_joint": "touch"},
-        "conditions": [
-            {"type": "fixed", "node_set": "base"},
-            {"type": "displacement", "node_set": "top", "value": [f"{2 * slide}*max(0,min(t/0.4-0.5,0.5))", f"-{0.2 * (1 - ratio)}*min(t/0.2,1)", 0]},
-        ],
-        "damping": {"mass": 30},
-        "time": {"end": 0.4},
-        "output": {"every": 0.4, "planes": False},
-        "history": {"every": 0.002, "joints": ["touch"]},
-    }  # fmt: skip
-    return recipe, deck
-
-
+# Soft blocks pressed on slabs of the same, to a part of their height, and slid. The second ones roll onto their sides, whose faces take part.
 for name, how in (
     ("to 0.75, slid", {"ratio": 0.75, "slide": 0.1, "friction": 0.4}),
     ("to 0.7, slid", {"ratio": 0.7, "slide": 0.1, "friction": 0.4}),
-    ("to 0.7, slid, finer", {"ratio": 0.7, "slide": 0.1, "friction": 0.4, "n": 2}),
+    ("to 0.7, slid, finer", {"ratio": 0.7, "slide": 0.1, "friction": 0.4, "block": (8, 6), "slab": (42, 6)}),
     ("to 0.6", {"ratio": 0.6, "slide": 0.0, "friction": 0.0}),
     ("to 0.75, slid, in space", {"ratio": 0.75, "slide": 0.1, "friction": 0.4, "dimension": 3}),
+    ("to 0.8, slid on", {"ratio": 0.8, "slide": 0.3, "friction": 0.3, "block": (5, 3), "slab": (18, 3)}),
+    ("to 0.8, slid on, back", {"ratio": 0.8, "slide": -0.2, "friction": 0.3, "block": (5, 3), "slab": (18, 3)}),
+    ("to 0.75, slid on, no friction", {"ratio": 0.75, "slide": 0.3, "friction": 0, "block": (5, 3), "slab": (18, 3)}),
+    ("to 0.75, slid on, rough", {"ratio": 0.75, "slide": 0.2, "friction": 0.6, "block": (5, 3), "slab": (18, 3)}),
+    ("to 0.7, slid on, full integration", {"ratio": 0.7, "slide": 0.2, "friction": 0, "block": (5, 3), "slab": (18, 3), "element": "full_integration"}),
+    ("to 0.7, slid on, triangles", {"ratio": 0.7, "slide": 0.2, "friction": 0, "block": (5, 3), "slab": (18, 3), "split": "triangles"}),
+    ("to 0.8, slid on, finer", {"ratio": 0.8, "slide": 0.2, "friction": 0, "block": (10, 6), "slab": (36, 6)}),
+    ("to 0.8, slid on, slab finer", {"ratio": 0.8, "slide": 0.2, "friction": 0.4, "block": (5, 3), "slab": (36, 6)}),
+    ("to 0.7, slid on, in space", {"ratio": 0.7, "slide": 0.15, "friction": 0, "block": (5, 3), "slab": (18, 3), "dimension": 3}),
 ):
-    run = case.run(f"punch {name}", *punch(**how), energy=5e-3, momentum=1e-11)
+    run = case.run(f"punch {name}", *slid_block(**how), energy=5e-3, momentum=1e-11)
     force = run.history["touch_normal_force"]
-    case.check_within(f"punch {name}: force at the end over the largest", force[-1] / force.max(), 0.85, 1)
+    slid = force[len(force) // 2 :]
+    case.check_within(f"punch {name}: least force while it slides over the largest", slid.min() / force.max(), 0.7, 1)
     play = abs(run.history["external_work"]).max()
     # At 0.6 the corners of the punch lie an element deep: they chatter, and contact gains while nothing moves.
     chatters = how["ratio"] <= 0.6
     told = " (reported: we differ)" if chatters else ""
-    case.check(f"punch {name}: contact remainder over the work{told}", run.history["contact_remainder"][-1] / play, 0, 3e-3, report=chatters)
+    remainder = run.history["contact_remainder"][-1] / play
+    # Errors of the step: 2.0e-3 at half of it with full integration, 1.7e-3 with the finer ones.
+    case.check(f"punch {name}: contact remainder over the work{told}", remainder, 0, 1e-2 if "element" in how else 5e-3, report=chatters)
 case.finish()

@@ -100,9 +100,16 @@ enum class Refusal : std::uint8_t
 enum class Lineage : std::uint8_t
 {
   Own,
-  Inherited,     ///< from living neighbours
-  SlidesOn,      ///< from neighbours of which one touches the same surface: the face beside
-  PartedSideways ///< its own: it carried until its faces shared nothing more (potential only)
+  Inherited, ///< from living neighbours
+  SlidesOn   ///< from neighbours of which one touches the same surface: the face beside
+};
+
+/// What two faces are to each other, for good.
+enum class Pairing : std::uint8_t
+{
+  Usual,     ///< of two bodies
+  OfOneBody, ///< which may be the front and the back of a thin part of it
+  Stiff      ///< the joint by far stiffer than what is behind, or rigid bodies: see weightInStep()
 };
 
 /// Crushing of a joint whose value is linear over face 0, and counts where it is positive, in the
@@ -145,8 +152,8 @@ struct alignas(64) Plane
   bool countedHere = false; ///< this rank books the plane's energy: it owns face 0
   bool declared = false;    ///< a joint that was closed at the start
   bool tooDeep = false;     ///< deeper than the limit
-  bool stiff = false;       ///< counts fourfold in the step, see weightInStep()
-  bool unseen = false;      ///< while its faces are apart nobody looks whether they share area
+  Pairing pairing = Pairing::Usual;
+  bool unseen = false; ///< while its faces are apart nobody looks whether they share area
   // Bit 4 f + e: of edge e of the outline of face f.
   std::uint8_t exits = 0;   ///< bodies can part over it
   std::uint8_t turns = 0;   ///< the surface turns outwards there
@@ -233,7 +240,10 @@ struct alignas(64) Plane
   /// halved, also while it carries, since a step that rises under load costs energy as well. So it
   /// is between rigid bodies, where nothing but the plane takes up energy. A declared joint is
   /// closed from the start.
-  KOKKOS_INLINE_FUNCTION Real weightInStep() const { return stiff && !declared ? 4 : 1; }
+  KOKKOS_INLINE_FUNCTION Real weightInStep() const
+  {
+    return pairing == Pairing::Stiff && !declared ? 4 : 1;
+  }
 
   /// Closure that the law sees: beyond the depth limit the force is frozen [m].
   KOKKOS_INLINE_FUNCTION Real limitedClosure() const

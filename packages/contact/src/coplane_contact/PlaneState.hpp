@@ -107,7 +107,7 @@ inline constexpr auto planeMembers = std::make_tuple(
         "too_deep", "-", [](auto& p) -> auto& { return p.tooDeep; })
         .writtenAs("too_deep"),
     planeMember(
-        "stiff", "-", [](auto& p) -> auto& { return p.stiff; }),
+        "pairing", "-", [](auto& p) -> auto& { return p.pairing; }),
     planeMember(
         "unseen", "-", [](auto& p) -> auto& { return p.unseen; }),
     planeMember(

@@ -81,8 +81,10 @@ Plane PlaneTable::freshPlane(std::size_t slot) const
       rules_->joints[rule.joint].law.fittedTo(a.thickness, a.modulus, b.thickness, b.modulus);
   const JointLaw& law = rules_->joints[rule.joint].law;
   const Real stiffest = law.curve.stiffens() ? plane.fit.stiffnessCap : plane.fit.normalStiffness;
-  plane.stiff = (a.rigid && b.rigid) ||
-                stiffest * (a.thickness / a.modulus + b.thickness / b.modulus) > stiffestCalm;
+  const bool isStiff =
+      (a.rigid && b.rigid) ||
+      stiffest * (a.thickness / a.modulus + b.thickness / b.modulus) > stiffestCalm;
+  plane.pairing = isStiff ? Pairing::Stiff : a.body == b.body ? Pairing::OfOneBody : Pairing::Usual;
   plane.depthLimit = float(depthMax_ * std::min(a.thickness, b.thickness));
   if (!slots_.edges.empty())
     putEdges(slots_.edges[slot], plane);

@@ -182,7 +182,6 @@ private:
     overlap_ = branchFree::choose(opposed, pair_.overlap, T(0.0));
     overlaps_ = overlap_ > options_.areaMin * branchFree::smaller(a_.area, b_.area);
     deepest_ = pair_.mostClosure + all(permanents_);
-    beginsNarrow_ = overlap_ < widestBeginning * branchFree::smaller(a_.area, b_.area);
     speed_ = branchFree::choose(overlaps_, approachSpeed(pair_.plane.normal, a_, b_), T(0.0));
     if (branchFree::anyOf(bends_ && overlaps_))
       done_ = done_ && !findBending(planes_, bends_ && overlaps_, pair_, a_, b_, dt_, bent_);
@@ -208,8 +207,11 @@ private:
     return closure > (1 + roundOffOfReach) * known ? closure : 0;
   }
   static constexpr Real roundOffOfReach = 1e-9;
-  /// What comes back over a line of the mesh in one step, over the smaller face [-].
-  static constexpr Real widestBeginning = 0.05;
+  /// With which a pair begins that comes from the side or by turning: the share of the smaller face
+  /// that it covers, times how opposed it is [-].
+  static constexpr Real largestBeginning = 0.1;
+  /// How deep such pairs may lie, over the depth limit: as deep as searches look for them.
+  static constexpr Real deepestWithin = 1.5;
   /// By uneven closures a curve reaches further with each tangent, from below; even ones take one.
   static constexpr int mostTangents = 8;
 
@@ -442,15 +444,25 @@ private:
     // An offset that has only just been taken over does not say how deep faces lie in each other.
     if (closedBefore && !late_[i] && -leastGaps_[i] < depth)
       depth = -leastGaps_[i];
-    // What has parted sideways over a line of the mesh comes back as deep as the pairs beside it,
-    // which it does not know, are by now. It was never apart from them. What it begins with has
-    // no source, so it begins with little, as what slides does.
-    const bool comesBack = plane.lineage == Lineage::PartedSideways && comesFromTheSide &&
-                           branchFree::lane(beginsNarrow_, i) &&
-                           branchFree::lane(deepest_, i) < plane.depthLimit &&
-                           branchFree::lane(pair_.isWithinASurface(), i);
-    if (depth > start && !comesBack)
+    if (!(depth > start))
+      return;
+    // What begins with little of its area, or hardly opposed, begins with little energy, however
+    // deep it lies. Where the surface goes on it has come from beside, or rolled on.
+    const bool beginsWithin = comesFromTheSide && plane.pairing == Pairing::Usual &&
+                              branchFree::lane(deepest_, i) < deepestWithin * plane.depthLimit &&
+                              beginsLittle(i) && branchFree::lane(pair_.isWithinASurface(), i);
+    if (!beginsWithin)
       plane.refusal = Refusal::Deep;
+  }
+
+  /// Whether a pair has little of its energy yet, as it covers little of its faces or is hardly
+  /// opposed.
+  KOKKOS_INLINE_FUNCTION bool beginsLittle(int i) const
+  {
+    EnergyDensity<T> density;
+    pair_.press(slope_, branchFree::choose(bonded_, T(0.0), hardening_), density);
+    const T share = pair_.opposedness * overlap_ / branchFree::smaller(a_.area, b_.area);
+    return branchFree::lane(share, i) < largestBeginning;
   }
 
   /// Motion, law and forces of the planes that carry.
@@ -794,13 +806,7 @@ private:
       if (!branchFree::lane(touching, i))
       {
         if (plane.area > 0)
-        {
           plane.frictionWork += plane.shearEnergy();
-          if (!branchFree::lane(overlaps_, i))
-            plane.lineage = Lineage::PartedSideways;
-          else if (plane.lineage == Lineage::PartedSideways)
-            plane.lineage = Lineage::Own;
-        }
         if (planes_.law[i]->curve.crushing.loss > 0)
           plane.bookHysteresisDue();
         carryNothing(plane);
@@ -876,7 +882,6 @@ private:
   BentBonds<T> bent_;                      ///< how these are bent
   T overlap_;                              ///< of the shadows, per depth [m^2]
   Mask overlaps_;                          ///< whether that is enough to count
-  Mask beginsNarrow_;                      ///< or still little
   T deepest_;                              ///< closure; negative: least distance [m]
   PerLane leastGaps_ = {};                 ///< where the faces are deepest in each other [m]
   T speed_;                                ///< of approach [m/s]

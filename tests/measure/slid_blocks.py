@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+"""Soft blocks, pressed deep and slid: in how many random scenes does contact hold, and what does it make or lose?
+
+    python3 tests/measure/slid_blocks.py BUILD/bin [--against OTHER/bin] [--scenes 160]
+
+A block of rubber, 2 to 4 elements high, is pressed to 0.68 to 0.85 of its height on a slab of the same, with the default penalty, and slid by a
+quarter to one and a half of its width. Prints a line for each program; 160 scenes take half a minute. The figures stand in docs/user/contact.md;
+tests/verification/deep_slides demands some of the scenes.
+"""
+
+import argparse
+import os
+import pathlib
+import random
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from coplanetest import Case
+from coplanetest.slides import slid_block
+
+
+def scenes(number, seed=7):
+    rng = random.Random(seed)
+    for _ in range(number):
+        split = rng.choice([None, None, "triangles"])
+        yield {
+            "ratio": rng.uniform(0.68, 0.85), "slide": rng.uniform(0.05, 0.3) * rng.choice([-1, 1]), "friction": rng.choice([0, 0, 0.2, 0.4, 0.6]),
+            "block": (rng.choice([3, 4, 5, 6, 8]), rng.choice([2, 3, 4])), "slab": (rng.choice([14, 18, 20, 25, 30]), rng.choice([2, 3, 4])),
+            "split": split, "element": "one_point" if split else rng.choice(["one_point", "one_point", "full_integration"]),
+        }  # fmt: skip
+
+
+def measure(program, number):
+    os.environ["COPLANE_BIN"] = str(pathlib.Path(program).resolve())
+    held, lost, ended, remainders = 0, 0, 0, []
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        case = Case("slid blocks", __file__)
+        for k, scene in enumerate(scenes(number)):
+            run = case.attempt(f"scene_{k}", *slid_block(**scene))
+            ended += run.code != 0
+            force = run.history["touch_normal_force"]
+            half = len(force) // 2  # pressed; then it slides
+            held += force[half:].min() > 0.7 * force.max()
+            lost += force[-1] < 0.3 * force.max()
+            remainders.append(run.history["contact_remainder"][-1] / abs(run.history["external_work"]).max())
+    sizes = sorted(abs(r) for r in remainders)
+    print(f"| {number} | {held} | {lost} | {ended} | {sizes[number // 2]:.1e} | {min(remainders):.1e} | {max(remainders):.1e} |")
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("program")
+    arguments.add_argument("--against")
+    arguments.add_argument("--scenes", type=int, default=160)
+    options = arguments.parse_args()
+    programs = [str(pathlib.Path(p).resolve()) for p in (options.program, options.against) if p]
+    print("| scenes | force stays above 0.7 of the largest | falls below 0.3 | end early | remainder over work, median size | most gained | most lost |\n|---|---|---|---|---|---|---|")
+    for program in programs:
+        measure(program, options.scenes)
+
+
+main()
