@@ -23,21 +23,13 @@ void ExactSum::addTerm(Real value)
   const int shift = position % 32;
   // mantissa << shift has at most 84 bits: three limbs.
   const unsigned __int128 wide = static_cast<unsigned __int128>(mantissa) << shift;
-  const std::int64_t low = std::int64_t(std::uint64_t(wide) & 0xffffffffull);
-  const std::int64_t middle = std::int64_t(std::uint64_t(wide >> 32) & 0xffffffffull);
-  const std::int64_t high = std::int64_t(std::uint64_t(wide >> 64) & 0xffffffffull);
-  if (value > 0)
-  {
-    limb_[first] += low;
-    limb_[first + 1] += middle;
-    limb_[first + 2] += high;
-  }
-  else
-  {
-    limb_[first] -= low;
-    limb_[first + 1] -= middle;
-    limb_[first + 2] -= high;
-  }
+  // Signs of momenta are as good as random: no branch. (x ^ -1) - (-1) = -x.
+  const std::int64_t sign = std::int64_t(bits) >> 63;
+  const auto add = [&](int limb, std::uint64_t digit)
+  { limb_[limb] += (std::int64_t(digit & 0xffffffffull) ^ sign) - sign; };
+  add(first, std::uint64_t(wide));
+  add(first + 1, std::uint64_t(wide >> 32));
+  add(first + 2, std::uint64_t(wide >> 64));
   if (++additions_ >= additionsBeforeCarry)
     carry();
 }

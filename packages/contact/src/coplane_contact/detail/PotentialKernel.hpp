@@ -195,110 +195,20 @@ private:
 
   /// Closure of a curve, or of a joint that is crushed evenly, where it is more than ever [m]; else
   /// 0. The mean over the pressure: even closures lie on the curve.
-  KOKKOS_FORCEINLINE_FUNCTION Real reach(int i) const
-  {
-    const JointLaw& law = *planes_.law[i];
-    const JointState& history = planes_.plane[i]->history;
-    const Real volume = branchFree::lane(pair_.moments.volume, i);
-    if (law.curve.straight() || crushes_[i] || history.bonded || !(volume > 0))
-      return 0;
-    const Real known = reached_[i] > history.maximumClosure ? reached_[i] : history.maximumClosure;
-    const Real closure = permanents_[i] + branchFree::lane(pair_.moments.squares, i) / volume;
-    return closure > (1 + roundOffOfReach) * known ? closure : 0;
-  }
+  KOKKOS_FORCEINLINE_FUNCTION Real reach(int i) const;
   static constexpr Real roundOffOfReach = 1e-9;
-  /// With which a pair begins that comes from the side or by turning: the share of the smaller face
-  /// that it covers, times how opposed it is [-].
-  static constexpr Real largestBeginning = 0.1;
-  /// How deep such pairs may lie, over the depth limit: as deep as searches look for them.
-  static constexpr Real deepestWithin = 1.5;
   /// By uneven closures a curve reaches further with each tangent, from below; even ones take one.
   static constexpr int mostTangents = 8;
-
   /// Curves that close as never before bear what they do at the closure of this cycle: with the
   /// tangent at that of the last one a fast closure, which passes the curve in one step, would find
   /// the energy of a stiffer tangent in the next.
-  KOKKOS_FORCEINLINE_FUNCTION void loadCurves(const Mask& loading)
-  {
-    if (!branchFree::anyOf(loading))
-      return;
-    for (int pass = 0; pass < mostTangents; ++pass)
-    {
-      bool any = false;
-      for (int i = 0; i < width; ++i)
-        if (branchFree::lane(loading, i))
-          if (const Real closure = reach(i); closure > 0)
-          {
-            reached_[i] = closure;
-            layTangent(i, closure);
-            any = true;
-          }
-      if (!any)
-        return;
-      slope_ = all(slopes_);
-      findClosure();
-    }
-  }
-
+  KOKKOS_FORCEINLINE_FUNCTION void loadCurves(const Mask& loading);
   /// What begins to touch on a curve is left to T = Real, which knows whether it carries.
-  KOKKOS_FORCEINLINE_FUNCTION void leaveNewOnCurves(const Mask& touching)
-  {
-    if (branchFree::anyOf(touching))
-      done_ = done_ && !(touching && branchFree::gathered<T>(
-                                         [&](int i) -> Real {
-                                           return !planes_.plane[i]->isRefused() && reach(i) > 0;
-                                         }) > 0.0);
-  }
-
+  KOKKOS_FORCEINLINE_FUNCTION void leaveNewOnCurves(const Mask& touching);
   /// What is crushed unevenly, or will be in this cycle, is left to T = Real.
-  KOKKOS_FORCEINLINE_FUNCTION void leaveCrushed(const Mask& opposed)
-  {
-    bool any = false;
-    for (const bool crushes : crushes_)
-      any = any || crushes;
-    if (!any)
-      return;
-    const Mask here =
-        branchFree::gathered<T>([&](int i) -> Real { return crushes_[i]; }) > 0.0 && opposed;
-    done_ = done_ && !(branchFree::gathered<T>(
-                           [&](int i) -> Real
-                           {
-                             return planes_.plane[i]->crushedUnevenly ||
-                                    branchFree::lane(pair_.mostClosure, i) + permanents_[i] >
-                                        mostWithoutCrushing(i);
-                           }) > 0.0 &&
-                       here);
-    const ContactMoments<T>& m = pair_.moments;
-    const auto byShear = [&](const T& shear)
-    {
-      return here && branchFree::gathered<T>(
-                         [&](int i) -> Real
-                         {
-                           const Real volume = branchFree::lane(m.volume, i);
-                           return volume > 0 &&
-                                  planes_.law[i]->mayBeCrushed(permanents_[i],
-                                                               slopes_[i] * volume /
-                                                                   branchFree::lane(m.area, i),
-                                                               branchFree::lane(shear, i));
-                         }) > 0.0;
-    };
-    if (!branchFree::anyOf(byShear(T(infinity))))
-      return;
-    EnergyDensity<T> density;
-    pair_.press(slope_, branchFree::choose(bonded_, T(0.0), hardening_), density);
-    Vec3Of<T> increment;
-    growFromBirth();
-    const Vec3Of<T> tau =
-        shearAfter(pair_.materialArea * pair_.opposedness * m.area, stepG_motion(), increment);
-    const T stiffness = planes_.each([](const Plane& p) { return p.fit.shearStiffness; });
-    const Vec3Of<T> trial = tau - stiffness * increment;
-    done_ = done_ && !byShear(branchFree::squareRoot(dot(trial, trial)));
-  }
+  KOKKOS_FORCEINLINE_FUNCTION void leaveCrushed(const Mask& opposed);
   /// Closure up to which a joint that has been crushed evenly is crushed no further [m].
-  KOKKOS_FORCEINLINE_FUNCTION Real mostWithoutCrushing(int i) const
-  {
-    return planes_.law[i]->curve.crushing.closureOf(permanents_[i], slopes_[i]);
-  }
+  KOKKOS_FORCEINLINE_FUNCTION Real mostWithoutCrushing(int i) const;
 
   /// Steps E and F. @returns the lanes that carry
   KOKKOS_FORCEINLINE_FUNCTION Mask stepEF_findOrCreate()
@@ -328,40 +238,9 @@ private:
   /// A pair that has taken over a joint which is crushed deeper than its faces lie in each other,
   /// or which has absorbed a gap or an overlap of the mesh, is a plane from there on and remembers
   /// that, whatever becomes of those that passed it on.
-  KOKKOS_FORCEINLINE_FUNCTION void rest(Plane& plane, int i) const
-  {
-    const bool crushed = crushes_[i] && permanents_[i] > 0 && branchFree::lane(deepest_, i) > 0;
-    const bool absorbed = plane.isInherited() && plane.history.absorbed;
-    if (!plane.isBorn() && (crushed || absorbed) && branchFree::lane(overlaps_, i))
-      stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i), leastGaps_[i]);
-  }
-
+  KOKKOS_FORCEINLINE_FUNCTION void rest(Plane& plane, int i) const;
   /// Of a plane in contact.
-  KOKKOS_FORCEINLINE_FUNCTION bool carries(Plane& plane, int i)
-  {
-    const bool carried = plane.area > 0;
-    const Before before = late_[i]                       ? Before::Closed
-                          : carried || plane.isRefused() ? Before::Open
-                                                         : stepBefore(plane, i);
-    const bool closedBefore = before == Before::Closed;
-    if (!carried && !(plane.declared && plane.isNew()) && !plane.history.bonded)
-      refuse(plane, i, closedBefore);
-    if (plane.isRefused())
-      return false;
-    if (!(plane.birthArea[0] > 0))
-    {
-      for (int f = 0; f < 2; ++f)
-        plane.birthArea[f] = branchFree::lane(pair_.faceArea(f), i);
-    }
-    if (stepE_planeExists(plane) && (carried || plane.sighting != Sighting::Woken))
-      return true;
-    const bool isLedge = before == Before::SharedNoArea && isHigherThanBeside(plane, i);
-    stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i), leastGaps_[i]);
-    if (closedBefore || isLedge)
-      beginHere(plane, i);
-    return !closedBefore && !isLedge && plane.sighting != Sighting::Woken;
-  }
-
+  KOKKOS_FORCEINLINE_FUNCTION bool carries(Plane& plane, int i);
   /// What a pair was a step ago.
   enum class Before
   {
@@ -369,101 +248,30 @@ private:
     SharedNoArea,
     Closed ///< over area that it shared
   };
-
   /// The same of a pair that has carried nothing. It was closed by an offset that it had not then:
   /// a joint that comes to bear again may lie higher than the faces beside it, which take that over
   /// and which nothing has met yet; and what a pair has taken over it may lose again.
-  KOKKOS_INLINE_FUNCTION Before stepBefore(const Plane& plane, int i) const
-  {
-    if (plane.isNew() || (plane.isBorn() && plane.sighting != Sighting::Woken))
-      return Before::Open;
-    const HalfStepFace a = placeBefore<Dim>(a_, i, dt_), b = placeBefore<Dim>(b_, i, dt_);
-    PairPotential<Dim, Real> before(a, b, ContactPotentialScale(options_));
-    if (!before.plane.opposed) // or their shadows are apart
-      return -dot(a.normal, b.normal) > options_.cosOpposed ? Before::SharedNoArea : Before::Open;
-    before.meet(plane.offset - permanents_[i], false, {});
-    const Real sliver = sliverOfFace > options_.areaMin ? sliverOfFace : options_.areaMin;
-    if (!(before.overlap > sliver * (a.area < b.area ? a.area : b.area)))
-      return Before::SharedNoArea;
-    return plane.history.bonded || before.mostClosure > 0 ? Before::Closed : Before::Open;
-  }
-
+  KOKKOS_INLINE_FUNCTION Before stepBefore(const Plane& plane, int i) const;
   /// Whether a pair that comes in from the side stands higher, by a gap that a joint beside it has
   /// absorbed, than that joint does: deeper closed than it, and by more than the step.
-  KOKKOS_INLINE_FUNCTION bool isHigherThanBeside(const Plane& plane, int i) const
-  {
-    if (!plane.isInherited() || !plane.history.absorbed)
-      return false;
-    const Real beside = 4 * plane.closure > permanents_[i] ? 4 * plane.closure : permanents_[i];
-    return branchFree::lane(deepest_, i) > beside + dt_ * branchFree::lane(speed_, i);
-  }
-
+  KOKKOS_INLINE_FUNCTION bool isHigherThanBeside(const Plane& plane, int i) const;
   /// What was closed before it carries has no energy, whatever its neighbours passed on: its
   /// surface lies where the faces are deepest in each other, on top of what the joint has closed
   /// for good. A bond, which carries by its mean closure, is stress-free where it is, unless its
   /// faces are tilted by more than it could hold: such faces were never bonded.
-  KOKKOS_INLINE_FUNCTION void beginHere(Plane& plane, int i) const
-  {
-    const Real surface = leastGaps_[i] + permanents_[i];
-    const Real mean =
-        branchFree::lane(pair_.moments.volume, i) / branchFree::lane(pair_.moments.area, i);
-    const Real uneven = branchFree::lane(pair_.mostClosure, i) - mean;
-    plane.history.bonded =
-        plane.history.bonded && slopes_[i] * uneven <= planes_.law[i]->bond.tensileStrength;
-    if (plane.history.bonded)
-      plane.offset -= mean;
-    else if (surface < plane.offset)
-    {
-      plane.offset = surface;
-      plane.forgetAbsorbedRoundOff();
-    }
-  }
-
+  KOKKOS_INLINE_FUNCTION void beginHere(Plane& plane, int i) const;
   /// A contact begins at the surface, and begins there anew after its faces had no area in common.
   /// Faces that come to share area while one lies deep behind the other did not meet: they carry
   /// nothing until they share none. They have no energy yet, so this costs none.
-  KOKKOS_FORCEINLINE_FUNCTION void refuse(Plane& plane, int i, bool closedBefore)
-  {
-    if (!plane.isRefused() && branchFree::lane(pair_.hidden, i))
-      plane.refusal = Refusal::Hidden;
-    const Real start = smallestStart(plane, 2 * dt_ * branchFree::lane(speed_, i));
-    // What slides on takes up where a neighbour leaves off, whose mean closure is no less than a
-    // quarter of that at its border. What is found with area in common is no such border.
-    const bool comesFromTheSide = !closedBefore && plane.sighting != Sighting::Woken;
-    const Real carriedBeside = (plane.lineage == Lineage::SlidesOn && comesFromTheSide ? 4
-                                : plane.isBorn() || plane.isInherited()                ? 1
-                                                                                       : 0) *
-                               plane.closure;
-    // The surface of a joint that has closed for good lies as deep as that.
-    Real permanent = permanents_[i];
-    if constexpr (width == 1)
-      if (plane.crushedUnevenly)
-        permanent = deepest_ - pair_.mostBeyondCrushing();
-    const Real explained = carriedBeside > permanent ? carriedBeside : permanent;
-    Real depth = branchFree::lane(deepest_, i) - explained;
-    // An offset that has only just been taken over does not say how deep faces lie in each other.
-    if (closedBefore && !late_[i] && -leastGaps_[i] < depth)
-      depth = -leastGaps_[i];
-    if (!(depth > start))
-      return;
-    // What begins with little of its area, or hardly opposed, begins with little energy, however
-    // deep it lies. Where the surface goes on it has come from beside, or rolled on.
-    const bool beginsWithin = comesFromTheSide && plane.pairing == Pairing::Usual &&
-                              branchFree::lane(deepest_, i) < deepestWithin * plane.depthLimit &&
-                              beginsLittle(i) && branchFree::lane(pair_.isWithinASurface(), i);
-    if (!beginsWithin)
-      plane.refusal = Refusal::Deep;
-  }
-
+  KOKKOS_FORCEINLINE_FUNCTION void refuse(Plane& plane, int i, bool closedBefore);
+  /// With which a pair begins that comes from the side or by turning: the share of the smaller face
+  /// that it covers, times how opposed it is [-].
+  static constexpr Real largestBeginning = 0.1;
+  /// How deep such pairs may lie, over the depth limit: as deep as searches look for them.
+  static constexpr Real deepestWithin = 1.5;
   /// Whether a pair has little of its energy yet, as it covers little of its faces or is hardly
   /// opposed.
-  KOKKOS_INLINE_FUNCTION bool beginsLittle(int i) const
-  {
-    EnergyDensity<T> density;
-    pair_.press(slope_, branchFree::choose(bonded_, T(0.0), hardening_), density);
-    const T share = pair_.opposedness * overlap_ / branchFree::smaller(a_.area, b_.area);
-    return branchFree::lane(share, i) < largestBeginning;
-  }
+  KOKKOS_INLINE_FUNCTION bool beginsLittle(int i) const;
 
   /// Motion, law and forces of the planes that carry.
   KOKKOS_FORCEINLINE_FUNCTION void stepGH_update(const Mask& touching)
@@ -922,3 +730,6 @@ KOKKOS_INLINE_FUNCTION void updateByForces(Plane& plane, const HalfStepFace& a,
   updateByForces<Dim, Real>(one, a, b, options, dt);
 }
 } // namespace coplane
+
+#include <coplane_contact/detail/PotentialBirths.hpp>
+#include <coplane_contact/detail/PotentialCurves.hpp>

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <coplane_contact/detail/PotentialKernel.hpp>
+
+// Steps E and F of PotentialCycle: whether a pair of faces in overlap carries, and where it begins
+// (docs/theory/contact-potential.md, "Life").
+
+namespace coplane::detail
+{
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::rest(Plane& plane, int i) const
+{
+  const bool crushed = crushes_[i] && permanents_[i] > 0 && branchFree::lane(deepest_, i) > 0;
+  const bool absorbed = plane.isInherited() && plane.history.absorbed;
+  if (!plane.isBorn() && (crushed || absorbed) && branchFree::lane(overlaps_, i))
+    stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i), leastGaps_[i]);
+}
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION bool PotentialCycle<Dim, T>::carries(Plane& plane, int i)
+{
+  const bool carried = plane.area > 0;
+  const Before before = late_[i]                       ? Before::Closed
+                        : carried || plane.isRefused() ? Before::Open
+                                                       : stepBefore(plane, i);
+  const bool closedBefore = before == Before::Closed;
+  if (!carried && !(plane.declared && plane.isNew()) && !plane.history.bonded)
+    refuse(plane, i, closedBefore);
+  if (plane.isRefused())
+    return false;
+  if (!(plane.birthArea[0] > 0))
+  {
+    for (int f = 0; f < 2; ++f)
+      plane.birthArea[f] = branchFree::lane(pair_.faceArea(f), i);
+  }
+  if (stepE_planeExists(plane) && (carried || plane.sighting != Sighting::Woken))
+    return true;
+  const bool isLedge = before == Before::SharedNoArea && isHigherThanBeside(plane, i);
+  stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i), leastGaps_[i]);
+  if (closedBefore || isLedge)
+    beginHere(plane, i);
+  return !closedBefore && !isLedge && plane.sighting != Sighting::Woken;
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION typename PotentialCycle<Dim, T>::Before
+PotentialCycle<Dim, T>::stepBefore(const Plane& plane, int i) const
+{
+  if (plane.isNew() || (plane.isBorn() && plane.sighting != Sighting::Woken))
+    return Before::Open;
+  const HalfStepFace a = placeBefore<Dim>(a_, i, dt_), b = placeBefore<Dim>(b_, i, dt_);
+  PairPotential<Dim, Real> before(a, b, ContactPotentialScale(options_));
+  if (!before.plane.opposed) // or their shadows are apart
+    return -dot(a.normal, b.normal) > options_.cosOpposed ? Before::SharedNoArea : Before::Open;
+  before.meet(plane.offset - permanents_[i], false, {});
+  const Real sliver = sliverOfFace > options_.areaMin ? sliverOfFace : options_.areaMin;
+  if (!(before.overlap > sliver * (a.area < b.area ? a.area : b.area)))
+    return Before::SharedNoArea;
+  return plane.history.bonded || before.mostClosure > 0 ? Before::Closed : Before::Open;
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION bool PotentialCycle<Dim, T>::isHigherThanBeside(const Plane& plane,
+                                                                       int i) const
+{
+  if (!plane.isInherited() || !plane.history.absorbed)
+    return false;
+  const Real beside = 4 * plane.closure > permanents_[i] ? 4 * plane.closure : permanents_[i];
+  return branchFree::lane(deepest_, i) > beside + dt_ * branchFree::lane(speed_, i);
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION void PotentialCycle<Dim, T>::beginHere(Plane& plane, int i) const
+{
+  const Real surface = leastGaps_[i] + permanents_[i];
+  const Real mean =
+      branchFree::lane(pair_.moments.volume, i) / branchFree::lane(pair_.moments.area, i);
+  const Real uneven = branchFree::lane(pair_.mostClosure, i) - mean;
+  plane.history.bonded =
+      plane.history.bonded && slopes_[i] * uneven <= planes_.law[i]->bond.tensileStrength;
+  if (plane.history.bonded)
+    plane.offset -= mean;
+  else if (surface < plane.offset)
+  {
+    plane.offset = surface;
+    plane.forgetAbsorbedRoundOff();
+  }
+}
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::refuse(Plane& plane, int i,
+                                                                bool closedBefore)
+{
+  if (!plane.isRefused() && branchFree::lane(pair_.hidden, i))
+    plane.refusal = Refusal::Hidden;
+  const Real start = smallestStart(plane, 2 * dt_ * branchFree::lane(speed_, i));
+  // What slides on takes up where a neighbour leaves off, whose mean closure is no less than a
+  // quarter of that at its border. What is found with area in common is no such border.
+  const bool comesFromTheSide = !closedBefore && plane.sighting != Sighting::Woken;
+  const Real carriedBeside = (plane.lineage == Lineage::SlidesOn && comesFromTheSide ? 4
+                              : plane.isBorn() || plane.isInherited()                ? 1
+                                                                                     : 0) *
+                             plane.closure;
+  // The surface of a joint that has closed for good lies as deep as that.
+  Real permanent = permanents_[i];
+  if constexpr (width == 1)
+    if (plane.crushedUnevenly)
+      permanent = deepest_ - pair_.mostBeyondCrushing();
+  const Real explained = carriedBeside > permanent ? carriedBeside : permanent;
+  Real depth = branchFree::lane(deepest_, i) - explained;
+  // An offset that has only just been taken over does not say how deep faces lie in each other.
+  if (closedBefore && !late_[i] && -leastGaps_[i] < depth)
+    depth = -leastGaps_[i];
+  if (!(depth > start))
+    return;
+  // What begins with little of its area, or hardly opposed, begins with little energy, however
+  // deep it lies. Where the surface goes on it has come from beside, or rolled on.
+  const bool beginsWithin = comesFromTheSide && plane.pairing == Pairing::Usual &&
+                            branchFree::lane(deepest_, i) < deepestWithin * plane.depthLimit &&
+                            beginsLittle(i) && branchFree::lane(pair_.isWithinASurface(), i);
+  if (!beginsWithin)
+    plane.refusal = Refusal::Deep;
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION bool PotentialCycle<Dim, T>::beginsLittle(int i) const
+{
+  EnergyDensity<T> density;
+  pair_.press(slope_, branchFree::choose(bonded_, T(0.0), hardening_), density);
+  const T share = pair_.opposedness * overlap_ / branchFree::smaller(a_.area, b_.area);
+  return branchFree::lane(share, i) < largestBeginning;
+}
+} // namespace coplane::detail
