@@ -309,4 +309,12 @@ TEST(EdgesOfSurfaces, aBodyOnItsOwnSeamSlidesOn)
   const Plane plane = scene.pair(0, up, 2, down);
   EXPECT_EQ(scene.edgesIn(plane.turns, 0), "+z -x -z");
 }
+
+TEST(EdgesOfSurfaces, theTopOfABodyEndsBeforeTheBottomOfTheOneBeside)
+{
+  // Where a top bulges into the body beside it, it faces that body's bottom: no surface goes on.
+  Scene scene({{{-1, 0, 0}, unitCube}, {{0, 0, 0}, unitCube}, {{-0.5, 1, 0}, unitCube}}, {0, 1, 2});
+  EXPECT_EQ(scene.edgesIn(scene.pair(0, up, 1, down).turns, 0), "+x +z -x -z");
+  EXPECT_EQ(scene.edgesIn(scene.pair(0, up, 2, down).turns, 0), "+z -x -z");
+}
 } // namespace coplane

@@ -23,7 +23,7 @@ struct Evaluation
 
   Evaluation(const FaceNodes& a, const FaceNodes& b, Real stiffness, Real offset,
              const std::array<Real, 2>& birth = {0, 0}, unsigned exits = 0, Real oneEdge = 1e-3,
-             Real inverseDepth = 0, unsigned turns = 0, unsigned seams = 0)
+             Real inverseDepth = 0, unsigned turns = 0, unsigned seams = 0, bool grows = false)
   {
     const HalfStepFace faceA = stepA_faceAtEnd<Dim>(a), faceB = stepA_faceAtEnd<Dim>(b);
     ContactPotentialScale scale(0.1);
@@ -44,6 +44,8 @@ struct Evaluation
     pair.meet(offset, false, edges);
     if (!(pair.moments.volume > 0))
       return;
+    if (grows)
+      pair.growIn();
     EnergyDensity<Real> density;
     energy = pair.press(stiffness, inverseDepth, density);
     share = pair.wayOut;
@@ -97,10 +99,12 @@ void expectForce(const Evaluation<Dim>& e, const FaceNodes (&faces)[2], int f, i
 /// Largest difference between the gradient and central differences, over the largest entry.
 template <int Dim>
 Real errorOfGradient(const FaceNodes& a, const FaceNodes& b, Real offset, unsigned exits = 0,
-                     Real inverseDepth = 0)
+                     Real inverseDepth = 0, bool grows = false)
 {
   const std::array<Real, 2> birth = {1.3 * areaOf<Dim>(a), .8 * areaOf<Dim>(b)};
-  const Evaluation<Dim> e(a, b, 1, offset, birth, exits, 0, inverseDepth);
+  const auto evaluated = [&](const FaceNodes& first, const FaceNodes& second)
+  { return Evaluation<Dim>(first, second, 1, offset, birth, exits, 0, inverseDepth, 0, 0, grows); };
+  const Evaluation<Dim> e = evaluated(a, b);
   Real largest = 0, worst = 0;
   for (int f = 0; f < 2; ++f)
     for (int i = 0; i < (f == 0 ? a : b).count; ++i)
@@ -111,8 +115,7 @@ Real errorOfGradient(const FaceNodes& a, const FaceNodes& b, Real offset, unsign
         {
           FaceNodes faces[2] = {a, b};
           faces[f].x[i][c] += h;
-          return Evaluation<Dim>(faces[0], faces[1], 1, offset, birth, exits, 0, inverseDepth)
-              .energy;
+          return evaluated(faces[0], faces[1]).energy;
         };
         const Real h = 3e-5;
         const Real slope = (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h);
@@ -343,6 +346,56 @@ TEST(ContactPotential, gradientInTwoDimensionsAlsoWhereAWayOutIsNear)
       EXPECT_LT((errorOfGradient<2>(a, b, 0, exits, inverseDepth)), 1e-5) << pairs;
   }
   EXPECT_GT(part, 100);
+}
+
+TEST(ContactPotential, whatBeganDeepGrowsWithTheShareOfTheSmallerFace)
+{
+  const FaceNodes a = face({{1, 0, 0}, {0, 0, 0}});
+  const auto energy = [&](Real share, bool grows)
+  {
+    const FaceNodes b = face({{1 - .5 * share, -.1, 0}, {1.5 - .5 * share, -.1, 0}});
+    return Evaluation<2>(a, b, 1, 0, {0, 0}, 0, 0, 0, 0, 0, grows).energy;
+  };
+  for (const Real share : {.2, .5})
+    EXPECT_EQ(energy(share, true), energy(share, false));
+  EXPECT_NEAR(energy(.1, true), .5 * energy(.1, false), 1e-16);
+  EXPECT_NEAR(energy(.002, true) / energy(.002, false), 3e-4, 3e-6); // 3 z^2 with z = .01
+}
+
+TEST(ContactPotential, gradientOfWhatBeganDeep)
+{
+  std::mt19937 random(9);
+  std::uniform_real_distribution<Real> u(0, 1);
+  int part = 0;
+  while (part < 300)
+  {
+    RandomPair pair =
+        part % 2 == 0 ? randomSegments(random, 1) : randomPair(random, .1 * u(random));
+    const Vec3 away{1.2 * u(random), part % 2 == 0 ? -.3 * u(random) : 1.2 * u(random),
+                    part % 2 == 0 ? 0 : -.3 * u(random)};
+    for (int i = 0; i < pair.b.count; ++i)
+      pair.b.x[i] = pair.b.x[i] + away;
+    const unsigned exits = unsigned(256 * u(random));
+    const auto share = [&](auto evaluate)
+    { return evaluate(true).energy / evaluate(false).energy; };
+    const auto check = [&](auto dimension)
+    {
+      constexpr int dim = decltype(dimension)::value;
+      const Real grown = share(
+          [&](bool grows) {
+            return Evaluation<dim>(pair.a, pair.b, 1, 0, {0, 0}, exits, 0, 4, 0, 0, grows);
+          });
+      const Real ratio = areaOf<dim>(pair.a) / areaOf<dim>(pair.b);
+      if (!(grown > .01 && grown < .99) || std::abs(ratio - 1) < .01) // which is the smaller one
+        return;
+      ++part;
+      EXPECT_LT((errorOfGradient<dim>(pair.a, pair.b, 0, exits, 4, true)), 3e-5) << part;
+    };
+    if (part % 2 == 0)
+      check(std::integral_constant<int, 2>());
+    else
+      check(std::integral_constant<int, 3>());
+  }
 }
 
 TEST(ContactPotential, gradientInThreeDimensionsAlsoWhereAWayOutIsNear)

@@ -111,6 +111,21 @@ public:
                         (coveredSides_[1] > 0.0 && openSides_[1] == 0.0));
   }
 
+  /// The pair has begun deep within a surface: up to a share of the smaller face, `grownAt`, it
+  /// carries less. The borders of what carries beside it need not lie on this plane, where they
+  /// would take from each other what comes and goes at a line of the mesh: a pair that begins so
+  /// would push with all of k c^2 / 2 along its border at once. Before press(); T = Real only.
+  KOKKOS_FORCEINLINE_FUNCTION void growIn() { growing_ = true; }
+  /// Bound of the stiffness of such a pair while it grows, over k: its energy k/2 c^2 w times a
+  /// SoftStep of w over grownAt is so stiff in the width w of what it shares [m^2].
+  KOKKOS_INLINE_FUNCTION Real growthStiffness(Real deepest) const
+  {
+    const Real size = Dim == 2 ? size_ : branchFree::squareRoot(size_);
+    return growing_ && overlap < grownAt * size_
+               ? 1.69 / grownAt * (deepest / size) * (deepest / size) * size_
+               : 0;
+  }
+
   /// phi, and what it changes by. The energy E = U phi(xi, U) rises with U at any angle: phi falls
   /// no faster than 1/U, since phi begins as the square of xi and the range grows no faster
   /// than the root of U.
@@ -141,7 +156,7 @@ public:
     using namespace branchFree;
     const T& v = moments.volume;
     const T& s = moments.squares;
-    const T mean = s / v;
+    const T mean = choose(v > 0.0, s / v, T(0.0)); // shear may have lifted all of it
     const T z = inverseDepth * mean, z4 = z * z * z * z, grown = z4 / (1.0 + z4);
     const T hard = 1.0 + PenaltyHardening::part * grown;
     const T hardSlope = 4.0 * PenaltyHardening::part * grown * (1.0 - grown);
@@ -161,6 +176,9 @@ public:
     if constexpr (canFold)
       if (folded_[0].area > 0 || folded_[1].area > 0)
         weighFolded(0.5 * stiffness * hard * s, slope);
+    if constexpr (widthOf<T> == 1)
+      if (growing_)
+        weighGrowing(0.5 * stiffness * hard * s, slope);
     density.square = 0.5 * stiffness * (wayOut * (hard + hardSlope) - slope * hard);
     density.linear = 0.5 * stiffness * mean * (2.0 * slope * hard - wayOut * hardSlope);
     density.constant = T(0.0);
@@ -181,7 +199,10 @@ public:
     density.square = rising() * density.square;
     density.linear = rising() * density.linear;
     if constexpr (widthOf<T> == 1)
+    {
       alongStrip_ = rising() * alongStrip_;
+      alongShare_ *= rising();
+    }
     if constexpr (canFold)
       for (Folded& folded : folded_)
         folded.slope *= rising();
@@ -234,6 +255,9 @@ public:
     if constexpr (widthOf<T> == 1)
       if (alongStrip_ != 0)
         addStrip(scale, push, first, rim);
+    if constexpr (widthOf<T> == 1)
+      if (alongShare_ != 0)
+        addShare(scale, alongShare_, rim);
     if constexpr (canFold)
       for (int f = 0; f < 2; ++f)
         if (folded_[f].slope != 0)
@@ -471,6 +495,10 @@ private:
   /// down, and nothing when that is as much as lies right side up: then its normal turns over.
   /// @param stored without chi [J]; slope: of chi with the logarithm of rho
   KOKKOS_INLINE_FUNCTION void weighFolded(const Real& stored, Real& slope);
+  /// Takes into chi how little the faces share of a pair that has begun deep; the same.
+  KOKKOS_INLINE_FUNCTION void weighGrowing(const Real& stored, Real& slope);
+  /// Adds the gradient of what hangs on the share of the smaller face. @param perShare [J]
+  KOKKOS_INLINE_FUNCTION void addShare(const Real& scale, Real perShare, Vec2 (&rim)[2][4]);
   /// Adds the gradient of what hangs on how far a face has folded.
   KOKKOS_INLINE_FUNCTION void addFolded(int f, Vec2 (&rim)[2][4]) const;
   KOKKOS_INLINE_FUNCTION void pressAll(const Mask& whole);
@@ -661,6 +689,10 @@ private:
   std::conditional_t<branchFree::widthOf<T> == 1, LinearOnPlane, Nothing> crushed_;
   /// Of what is crushed of the part in contact.
   std::conditional_t<branchFree::widthOf<T> == 1, ContactMoments<T>, Nothing> ofCrushed_;
+  /// The share from which on such pairs carry fully [-].
+  static constexpr Real grownAt = 0.2;
+  bool growing_ = false;
+  Real alongShare_ = 0; ///< what the energy changes with the share of the smaller face [J]
   Mask strip_{false};
   T alongStrip_{}; ///< what the energy changes with the logarithm of the closure along its borders
                    ///< [J]

@@ -14,6 +14,8 @@ namespace
 /// them oppose each other and the faces do much less, like the ends of two bricks beside each
 /// other, and the top of one and the front of the other: the ends keep them apart.
 constexpr Real faceAway = 0.5, parallel = 0.97, muchLess = 0.3;
+/// A face that lies so deep behind another one, over the thinner element, is a back [-].
+constexpr Real deepBehind = 0.5;
 /// Bodies can leave each other over an edge at which the normal beyond has less than this in common
 /// with the face's.
 constexpr Real sharp = 0.4;
@@ -247,6 +249,9 @@ void EdgesOfSurfaces::look(std::size_t pair, Plane& plane) const
   const Vec3 normals[2] = {planes_(places[0]).normal, planes_(places[1]).normal};
   const Vec3 common = normalised(normals[0] - normals[1]);
   const bool onEachOther = lieOn_[pair] > 0, slanted = dot(normals[0], normals[1]) > -muchLess;
+  const bool behind =
+      dot(common, planes_(places[1]).center - planes_(places[0]).center) <
+      -deepBehind * std::min(faces_[places[0]].thickness, faces_[places[1]].thickness);
   Beyond all[8];
   for (int f = 0; f < 2; ++f)
   {
@@ -262,9 +267,10 @@ void EdgesOfSurfaces::look(std::size_t pair, Plane& plane) const
       // Not by the body of the other face: that one comes with what lies there.
       const int covers = onEachOther ? -1 : hides(edge.nodes, normals[f], edge.beyond, flush_);
       here.covers = covers == other ? -1 : covers;
-      // A body that opposes a face just so, past the seam, does not press upon itself there.
+      // A body does not press upon itself past the seam, where it opposes a face just so, or with
+      // its back: of two bodies beside each other the top of one and the bottom of the other.
       const int goesOn = hides(edge.nodes, edge.beyond, normals[f], goingOn_);
-      here.goesOn = slanted && goesOn == other ? -1 : goesOn;
+      here.goesOn = (slanted || behind) && goesOn == other ? -1 : goesOn;
     }
   }
   const auto forEachWayOut = [&](const auto& action)

@@ -104,10 +104,11 @@ enum class Lineage : std::uint8_t
   SlidesOn   ///< from neighbours of which one touches the same surface: the face beside
 };
 
-/// What two faces are to each other, for good.
+/// What two faces are to each other.
 enum class Pairing : std::uint8_t
 {
   Usual,     ///< of two bodies
+  Growing,   ///< these, while they carry what began deep within a surface (potential only)
   OfOneBody, ///< which may be the front and the back of a thin part of it
   Stiff      ///< the joint by far stiffer than what is behind, or rigid bodies: see weightInStep()
 };
@@ -232,6 +233,12 @@ struct alignas(64) Plane
   KOKKOS_INLINE_FUNCTION bool isInherited() const
   {
     return lineage == Lineage::Inherited || lineage == Lineage::SlidesOn;
+  }
+
+  /// Whether it carries by how much its faces share: it began deep (PairPotential::growIn).
+  KOKKOS_INLINE_FUNCTION bool carriesGrowing() const
+  {
+    return pairing == Pairing::Growing && area > 0 && !history.bonded;
   }
 
   /// How much the plane counts for the stable step [-]. Inside the step in which a node meets a

@@ -20,6 +20,8 @@ template <int Dim, class T>
 KOKKOS_FORCEINLINE_FUNCTION bool PotentialCycle<Dim, T>::carries(Plane& plane, int i)
 {
   const bool carried = plane.area > 0;
+  if (!carried && plane.pairing == Pairing::Growing)
+    plane.pairing = Pairing::Usual;
   const Before before = late_[i]                       ? Before::Closed
                         : carried || plane.isRefused() ? Before::Open
                                                        : stepBefore(plane, i);
@@ -94,40 +96,60 @@ KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::refuse(Plane& plane, in
   if (!plane.isRefused() && branchFree::lane(pair_.hidden, i))
     plane.refusal = Refusal::Hidden;
   const Real start = smallestStart(plane, 2 * dt_ * branchFree::lane(speed_, i));
-  // What slides on takes up where a neighbour leaves off, whose mean closure is no less than a
-  // quarter of that at its border. What is found with area in common is no such border.
+  // What is found with area in common does not come from the side.
   const bool comesFromTheSide = !closedBefore && plane.sighting != Sighting::Woken;
-  const Real carriedBeside = (plane.lineage == Lineage::SlidesOn && comesFromTheSide ? 4
-                              : plane.isBorn() || plane.isInherited()                ? 1
-                                                                                     : 0) *
-                             plane.closure;
+  const Real carriedBeside = plane.isBorn() || plane.isInherited() ? Real(plane.closure) : 0;
   // The surface of a joint that has closed for good lies as deep as that.
   Real permanent = permanents_[i];
   if constexpr (width == 1)
     if (plane.crushedUnevenly)
       permanent = deepest_ - pair_.mostBeyondCrushing();
-  const Real explained = carriedBeside > permanent ? carriedBeside : permanent;
-  Real depth = branchFree::lane(deepest_, i) - explained;
-  // An offset that has only just been taken over does not say how deep faces lie in each other.
-  if (closedBefore && !late_[i] && -leastGaps_[i] < depth)
-    depth = -leastGaps_[i];
-  if (!(depth > start))
+  const auto beyond = [&](Real explained)
+  {
+    const Real depth =
+        branchFree::lane(deepest_, i) - (explained > permanent ? explained : permanent);
+    // An offset that has only just been taken over does not say how deep faces lie in each other.
+    return closedBefore && !late_[i] && -leastGaps_[i] < depth ? -leastGaps_[i] : depth;
+  };
+  if (!(beyond(carriedBeside) > start))
     return;
+  // What slides on takes up where a neighbour leaves off, whose mean closure is no less than a
+  // quarter of that at its border.
+  const bool slidesOn = plane.lineage == Lineage::SlidesOn && comesFromTheSide;
+  const bool isExplained = slidesOn && !(beyond(4 * carriedBeside) > start);
   // What begins with little of its area, or hardly opposed, begins with little energy, however
   // deep it lies. Where the surface goes on it has come from beside, or rolled on.
-  const bool beginsWithin = comesFromTheSide && plane.pairing == Pairing::Usual &&
-                            branchFree::lane(deepest_, i) < deepestWithin * plane.depthLimit &&
-                            beginsLittle(i) && branchFree::lane(pair_.isWithinASurface(), i);
-  if (!beginsWithin)
+  if constexpr (width == 1)
+    if (comesFromTheSide && mayGrow(plane) && beginsLittle() && pair_.isWithinASurface() &&
+        (isExplained || deepest_ < deepestWithin * plane.depthLimit))
+    {
+      plane.pairing = Pairing::Growing;
+      pair_.growIn();
+      return;
+    }
+  if (!isExplained)
     plane.refusal = Refusal::Deep;
 }
 
 template <int Dim, class T>
-KOKKOS_INLINE_FUNCTION bool PotentialCycle<Dim, T>::beginsLittle(int i) const
+KOKKOS_INLINE_FUNCTION bool PotentialCycle<Dim, T>::beginsLittle() const
 {
   EnergyDensity<T> density;
-  pair_.press(slope_, branchFree::choose(bonded_, T(0.0), hardening_), density);
-  const T share = pair_.opposedness * overlap_ / branchFree::smaller(a_.area, b_.area);
-  return branchFree::lane(share, i) < largestBeginning;
+  pair_.press(slope_, bonded_ ? 0 : hardening_, density);
+  return pair_.opposedness * overlap_ < largestBeginning * branchFree::smaller(a_.area, b_.area);
+}
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::leaveDeep()
+{
+  const auto grows = planes_.each([](const Plane& p) { return p.carriesGrowing(); }) > 0.0;
+  if (branchFree::anyOf(grows))
+    done_ = done_ && !grows;
+  const T birth = planes_.each([](const Plane& p) { return deepestBirth * p.depthLimit; });
+  const Mask deep = done_ && overlaps_ && deepest_ > birth;
+  if (branchFree::anyOf(deep))
+    done_ =
+        done_ &&
+        !(deep && planes_.each([](const Plane& p) { return !(p.area > 0) && mayGrow(p); }) > 0.0);
 }
 } // namespace coplane::detail

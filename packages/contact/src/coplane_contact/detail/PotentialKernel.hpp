@@ -166,8 +166,13 @@ private:
   {
     const auto& opposed = pair_.plane.opposed;
     if constexpr (width == 1)
-      if (opposed && planes_.plane[0]->crushedUnevenly)
-        pair_.beCrushed(planes_.plane[0]->crushing());
+    {
+      const Plane& plane = *planes_.plane[0];
+      if (opposed && plane.crushedUnevenly)
+        pair_.beCrushed(plane.crushing());
+      if (plane.carriesGrowing())
+        pair_.growIn();
+    }
     if (branchFree::anyOf(opposed))
       findClosure();
     const Mask carried =
@@ -182,6 +187,8 @@ private:
     overlap_ = branchFree::choose(opposed, pair_.overlap, T(0.0));
     overlaps_ = overlap_ > options_.areaMin * branchFree::smaller(a_.area, b_.area);
     deepest_ = pair_.mostClosure + all(permanents_);
+    if constexpr (width != 1)
+      leaveDeep();
     speed_ = branchFree::choose(overlaps_, approachSpeed(pair_.plane.normal, a_, b_), T(0.0));
     if (branchFree::anyOf(bends_ && overlaps_))
       done_ = done_ && !findBending(planes_, bends_ && overlaps_, pair_, a_, b_, dt_, bent_);
@@ -205,6 +212,8 @@ private:
   KOKKOS_FORCEINLINE_FUNCTION void loadCurves(const Mask& loading);
   /// What begins to touch on a curve is left to T = Real, which knows whether it carries.
   KOKKOS_FORCEINLINE_FUNCTION void leaveNewOnCurves(const Mask& touching);
+  /// What has begun deep within a surface, or may do so, is left to T = Real.
+  KOKKOS_FORCEINLINE_FUNCTION void leaveDeep();
   /// What is crushed unevenly, or will be in this cycle, is left to T = Real.
   KOKKOS_FORCEINLINE_FUNCTION void leaveCrushed(const Mask& opposed);
   /// Closure up to which a joint that has been crushed evenly is crushed no further [m].
@@ -271,7 +280,12 @@ private:
   static constexpr Real deepestWithin = 1.5;
   /// Whether a pair has little of its energy yet, as it covers little of its faces or is hardly
   /// opposed.
-  KOKKOS_INLINE_FUNCTION bool beginsLittle(int i) const;
+  KOKKOS_INLINE_FUNCTION bool beginsLittle() const;
+  /// Whether a pair may begin deep within a surface, if it has little of its energy.
+  static KOKKOS_INLINE_FUNCTION bool mayGrow(const Plane& plane)
+  {
+    return plane.pairing < Pairing::OfOneBody && !plane.isRefused() && !plane.crushedUnevenly;
+  }
 
   /// Motion, law and forces of the planes that carry.
   KOKKOS_FORCEINLINE_FUNCTION void stepGH_update(const Mask& touching)
@@ -668,7 +682,10 @@ private:
     // Faces that have shrunk since they met have more of the material on their area.
     growFromBirth();
     const T shrunk = branchFree::larger(pair_.materialArea, T(1.0));
-    return overlap_ * pair_.depthOfStep(deepest_) * shrunk * hardened * (rowSum * share);
+    T area = overlap_ * share;
+    if constexpr (width == 1)
+      area = branchFree::larger(area, pair_.growthStiffness(deepest_));
+    return area * pair_.depthOfStep(deepest_) * shrunk * hardened * rowSum;
   }
 
   static KOKKOS_FORCEINLINE_FUNCTION T all(const PerLane& values)
