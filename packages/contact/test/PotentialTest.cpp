@@ -353,7 +353,7 @@ TEST(ContactPotential, whatBeganDeepGrowsWithTheShareOfTheSmallerFace)
   const FaceNodes a = face({{1, 0, 0}, {0, 0, 0}});
   const auto energy = [&](Real share, bool grows)
   {
-    const FaceNodes b = face({{1 - .5 * share, -.1, 0}, {1.5 - .5 * share, -.1, 0}});
+    const FaceNodes b = face({{1 - share, -.1, 0}, {2 - share, -.1, 0}});
     return Evaluation<2>(a, b, 1, 0, {0, 0}, 0, 0, 0, 0, 0, grows).energy;
   };
   for (const Real share : {.2, .5})
@@ -385,8 +385,7 @@ TEST(ContactPotential, gradientOfWhatBeganDeep)
           [&](bool grows) {
             return Evaluation<dim>(pair.a, pair.b, 1, 0, {0, 0}, exits, 0, 4, 0, 0, grows);
           });
-      const Real ratio = areaOf<dim>(pair.a) / areaOf<dim>(pair.b);
-      if (!(grown > .01 && grown < .99) || std::abs(ratio - 1) < .01) // which is the smaller one
+      if (!(grown > .01 && grown < .99))
         return;
       ++part;
       EXPECT_LT((errorOfGradient<dim>(pair.a, pair.b, 0, exits, 4, true)), 3e-5) << part;

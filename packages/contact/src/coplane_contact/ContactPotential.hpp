@@ -65,7 +65,7 @@ public:
   T depth = T(1.0);          ///< mean depth of the overlap: 1 m, of rings pi (r0 + r1)
   T mostClosure{};           ///< over the overlap [m]; minus infinity without overlap
   ContactMoments<T> moments; ///< of the part in contact
-  T wayOut = T(1.0);         ///< chi
+  T wayOut = T(1.0);         ///< chi, times what folded faces and growing pairs have of it
   Mask hidden{false};        ///< the part in contact begins at covered edges only
   /// At three quarters of the border of what is in contact, by length, or more there is no edge of
   /// one of the faces at which its surface turns or another body covers it: the surface goes on
@@ -111,19 +111,24 @@ public:
                         (coveredSides_[1] > 0.0 && openSides_[1] == 0.0));
   }
 
-  /// The pair has begun deep within a surface: up to a share of the smaller face, `grownAt`, it
-  /// carries less. The borders of what carries beside it need not lie on this plane, where they
-  /// would take from each other what comes and goes at a line of the mesh: a pair that begins so
-  /// would push with all of k c^2 / 2 along its border at once. Before press(); T = Real only.
+  /// The pair has begun deep within a surface: it carries less until its faces share `grownAt` of
+  /// the smaller one. At its border it would push with k c^2 / 2 per length as soon as it shares
+  /// anything, and what carried beside it need not lose the same there. Before press(); T = Real.
   KOKKOS_FORCEINLINE_FUNCTION void growIn() { growing_ = true; }
-  /// Bound of the stiffness of such a pair while it grows, over k: its energy k/2 c^2 w times a
-  /// SoftStep of w over grownAt is so stiff in the width w of what it shares [m^2].
+  /// What the growth adds to the stiffness at a node, over k: of k/2 c^2 A times a SoftStep of A
+  /// over grownAt times a face of area S, whose border of length L moves [m^2].
   KOKKOS_INLINE_FUNCTION Real growthStiffness(Real deepest) const
   {
-    const Real size = Dim == 2 ? size_ : branchFree::squareRoot(size_);
-    return growing_ && overlap < grownAt * size_
-               ? 1.69 / grownAt * (deepest / size) * (deepest / size) * size_
-               : 0;
+    if (!growing_ || !(overlap * perShare() < grownAt))
+      return 0;
+    Real border = Dim == 2 ? 1 : 0; // the square of its length
+    for (int f = 0; f < 2 && Dim == 3; ++f)
+      for (int i = 0; i < face_[f]->count && face_[f]->area == size_; ++i)
+      {
+        const Vec3 edge = face_[f]->x[i + 1 == face_[f]->count ? 0 : i + 1] - face_[f]->x[i];
+        border = branchFree::larger(dot(edge, edge), border);
+      }
+    return 1.69 / grownAt * deepest * deepest * border / size_;
   }
 
   /// phi, and what it changes by. The energy E = U phi(xi, U) rises with U at any angle: phi falls
@@ -253,11 +258,12 @@ public:
       addRims(piece_[i], density, rim);
     const T scale = materialArea * opposedness;
     if constexpr (widthOf<T> == 1)
+    {
       if (alongStrip_ != 0)
         addStrip(scale, push, first, rim);
-    if constexpr (widthOf<T> == 1)
       if (alongShare_ != 0)
-        addShare(scale, alongShare_, rim);
+        addGrowth(scale, rim);
+    }
     if constexpr (canFold)
       for (int f = 0; f < 2; ++f)
         if (folded_[f].slope != 0)
@@ -495,10 +501,17 @@ private:
   /// down, and nothing when that is as much as lies right side up: then its normal turns over.
   /// @param stored without chi [J]; slope: of chi with the logarithm of rho
   KOKKOS_INLINE_FUNCTION void weighFolded(const Real& stored, Real& slope);
-  /// Takes into chi how little the faces share of a pair that has begun deep; the same.
+  /// Takes into chi how little the faces share of a pair that has begun deep.
+  /// @param stored without chi [J]; slope: of chi with the logarithm of rho
   KOKKOS_INLINE_FUNCTION void weighGrowing(const Real& stored, Real& slope);
-  /// Adds the gradient of what hangs on the share of the smaller face. @param perShare [J]
-  KOKKOS_INLINE_FUNCTION void addShare(const Real& scale, Real perShare, Vec2 (&rim)[2][4]);
+  /// One over the area of the smaller face, smoothly: faces of a size count alike [1/m^2].
+  KOKKOS_INLINE_FUNCTION Real perShare() const
+  {
+    return std::sqrt(
+        0.5 * (1 / (face_[0]->area * face_[0]->area) + 1 / (face_[1]->area * face_[1]->area)));
+  }
+  /// Adds the gradient of what hangs on how much of them the faces share.
+  KOKKOS_INLINE_FUNCTION void addGrowth(const Real& scale, Vec2 (&rim)[2][4]);
   /// Adds the gradient of what hangs on how far a face has folded.
   KOKKOS_INLINE_FUNCTION void addFolded(int f, Vec2 (&rim)[2][4]) const;
   KOKKOS_INLINE_FUNCTION void pressAll(const Mask& whole);

@@ -154,23 +154,17 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addStrip(const Real& scale, R
   const SmoothStep<Real> together(4 * shared - 2);
   if (!(together.slope > 0))
     return;
-  addShare(scale, -4 * alongStrip_ * together.slope / (1 - together.value), rim);
-}
-
-template <int Dim, class T>
-KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addShare(const Real& scale, Real perShare,
-                                                            Vec2 (&rim)[2][4])
-{
+  const Real perShare = -4 * alongStrip_ * together.slope / (1 - together.value);
   for (int i = 0; i < pieces_; ++i)
     addRims(whole_[i], {0, 0, perShare / size_}, rim, false);
   const int smallest = face_[0]->area < face_[1]->area ? 0 : 1;
-  byVectorArea(smallest, (-scale * perShare * overlap / (size_ * size_)) * face_[smallest]->normal);
+  byVectorArea(smallest, (-scale * perShare * shared / size_) * face_[smallest]->normal);
 }
 
 template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::weighGrowing(const Real& stored, Real& slope)
 {
-  const SoftStep<Real> part(overlap / (size_ * grownAt));
+  const SoftStep<Real> part(overlap * perShare() / grownAt);
   alongShare_ = stored * wayOut * part.slope / grownAt;
   wayOut *= part.value;
   slope *= part.value;
@@ -178,6 +172,19 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::weighGrowing(const Real& stor
   if constexpr (canFold)
     for (Folded& folded : folded_)
       folded.slope *= part.value;
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addGrowth(const Real& scale, Vec2 (&rim)[2][4])
+{
+  for (int i = 0; i < pieces_; ++i)
+    addRims(whole_[i], {0, 0, alongShare_ * perShare()}, rim, false);
+  for (int f = 0; f < 2; ++f)
+  {
+    const Real area = face_[f]->area;
+    byVectorArea(f, (-0.5 * scale * alongShare_ * overlap / (area * area * area * perShare())) *
+                        face_[f]->normal);
+  }
 }
 
 template <int Dim, class T>

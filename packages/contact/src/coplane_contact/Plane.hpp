@@ -108,7 +108,7 @@ enum class Lineage : std::uint8_t
 enum class Pairing : std::uint8_t
 {
   Usual,     ///< of two bodies
-  Growing,   ///< these, while they carry what began deep within a surface (potential only)
+  Growing,   ///< these, from when they began deep within a surface until they begin anew
   OfOneBody, ///< which may be the front and the back of a thin part of it
   Stiff      ///< the joint by far stiffer than what is behind, or rigid bodies: see weightInStep()
 };

@@ -120,8 +120,10 @@ KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::refuse(Plane& plane, in
   // What begins with little of its area, or hardly opposed, begins with little energy, however
   // deep it lies. Where the surface goes on it has come from beside, or rolled on.
   if constexpr (width == 1)
-    if (comesFromTheSide && mayGrow(plane) && beginsLittle() && pair_.isWithinASurface() &&
-        (isExplained || deepest_ < deepestWithin * plane.depthLimit))
+    if (comesFromTheSide && mayGrow(plane) && !crushes_[i] && beginsLittle() &&
+        pair_.isWithinASurface() &&
+        (isExplained ? deepest_ > plane.depthLimit
+                     : deepest_ < deepestWithin / options_.depthMax * plane.depthLimit))
     {
       plane.pairing = Pairing::Growing;
       pair_.growIn();
@@ -135,7 +137,7 @@ template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION bool PotentialCycle<Dim, T>::beginsLittle() const
 {
   EnergyDensity<T> density;
-  pair_.press(slope_, bonded_ ? 0 : hardening_, density);
+  pair_.press(slope_, hardening_, density);
   return pair_.opposedness * overlap_ < largestBeginning * branchFree::smaller(a_.area, b_.area);
 }
 
@@ -143,8 +145,7 @@ template <int Dim, class T>
 KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::leaveDeep()
 {
   const auto grows = planes_.each([](const Plane& p) { return p.carriesGrowing(); }) > 0.0;
-  if (branchFree::anyOf(grows))
-    done_ = done_ && !grows;
+  done_ = done_ && !grows;
   const T birth = planes_.each([](const Plane& p) { return deepestBirth * p.depthLimit; });
   const Mask deep = done_ && overlaps_ && deepest_ > birth;
   if (branchFree::anyOf(deep))

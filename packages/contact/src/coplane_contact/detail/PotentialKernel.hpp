@@ -276,8 +276,8 @@ private:
   /// With which a pair begins that comes from the side or by turning: the share of the smaller face
   /// that it covers, times how opposed it is [-].
   static constexpr Real largestBeginning = 0.1;
-  /// How deep such pairs may lie, over the depth limit: as deep as searches look for them.
-  static constexpr Real deepestWithin = 1.5;
+  /// How deep such pairs may lie, over the thinner element: as deep as searches look for them.
+  static constexpr Real deepestWithin = 0.9;
   /// Whether a pair has little of its energy yet, as it covers little of its faces or is hardly
   /// opposed.
   KOKKOS_INLINE_FUNCTION bool beginsLittle() const;
@@ -321,7 +321,8 @@ private:
                   branchFree::lane(loaded, i), branchFree::lane(tau, i),
                   branchFree::lane(increment, i), branchFree::lane(relative.closing, i), response);
         // What can leave sideways is not deep.
-        plane.tooDeep = plane.tooDeep && branchFree::lane(share, i) > alongThePlane;
+        plane.tooDeep = plane.tooDeep && (branchFree::lane(share, i) > alongThePlane ||
+                                          plane.pairing == Pairing::Growing);
       }
 
     if constexpr (width == 1)
@@ -684,7 +685,7 @@ private:
     const T shrunk = branchFree::larger(pair_.materialArea, T(1.0));
     T area = overlap_ * share;
     if constexpr (width == 1)
-      area = branchFree::larger(area, pair_.growthStiffness(deepest_));
+      area += pair_.growthStiffness(deepest_);
     return area * pair_.depthOfStep(deepest_) * shrunk * hardened * rowSum;
   }
 
