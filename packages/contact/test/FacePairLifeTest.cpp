@@ -299,10 +299,9 @@ TEST(RefusalOfThePotential, whatBeginsWithLittleIsNotDeepWhereItsSurfaceGoesOn)
   }
   EXPECT_FALSE(afterItCameAside(.09, .06, 0).isRefused());
   EXPECT_TRUE(afterItCameAside(.11, .06, 0).isRefused()); // at once by more than a tenth
-  EXPECT_FALSE(afterItCameAside(.01, .14, 0).isRefused());
-  EXPECT_TRUE(afterItCameAside(.01, .16, 0).isRefused()); // beyond one and a half depth limits
-  for (const Pairing pairing : {Pairing::OfOneBody, Pairing::Stiff})
-    EXPECT_TRUE(afterItCameAside(.01, .06, 0, pairing).isRefused());
+  EXPECT_FALSE(afterItCameAside(.01, .09, 0).isRefused());
+  EXPECT_TRUE(afterItCameAside(.01, .11, 0).isRefused()); // beyond the depth limit
+  EXPECT_TRUE(afterItCameAside(.01, .06, 0, Pairing::Stiff).isRefused());
 }
 
 TEST(RefusalOfThePotential, whatTurnsUntilItIsOpposedBeginsWithLittle)

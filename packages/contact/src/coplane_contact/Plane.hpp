@@ -107,10 +107,9 @@ enum class Lineage : std::uint8_t
 /// What two faces are to each other.
 enum class Pairing : std::uint8_t
 {
-  Usual,     ///< of two bodies
-  Growing,   ///< these, from when they began deep within a surface until they begin anew
-  OfOneBody, ///< which may be the front and the back of a thin part of it
-  Stiff      ///< the joint by far stiffer than what is behind, or rigid bodies: see weightInStep()
+  Usual,
+  Growing, ///< from when it began deep within a surface until it begins anew (potential only)
+  Stiff    ///< the joint by far stiffer than what is behind, or rigid bodies: see weightInStep()
 };
 
 /// Crushing of a joint whose value is linear over face 0, and counts where it is positive, in the

@@ -84,7 +84,7 @@ Plane PlaneTable::freshPlane(std::size_t slot) const
   const bool isStiff =
       (a.rigid && b.rigid) ||
       stiffest * (a.thickness / a.modulus + b.thickness / b.modulus) > stiffestCalm;
-  plane.pairing = isStiff ? Pairing::Stiff : a.body == b.body ? Pairing::OfOneBody : Pairing::Usual;
+  plane.pairing = isStiff ? Pairing::Stiff : Pairing::Usual;
   plane.depthLimit = float(depthMax_ * std::min(a.thickness, b.thickness));
   if (!slots_.edges.empty())
     putEdges(slots_.edges[slot], plane);

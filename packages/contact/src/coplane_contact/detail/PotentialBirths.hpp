@@ -121,9 +121,7 @@ KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::refuse(Plane& plane, in
   // deep it lies. Where the surface goes on it has come from beside, or rolled on.
   if constexpr (width == 1)
     if (comesFromTheSide && mayGrow(plane) && !crushes_[i] && beginsLittle() &&
-        pair_.isWithinASurface() &&
-        (isExplained ? deepest_ > plane.depthLimit
-                     : deepest_ < deepestWithin / options_.depthMax * plane.depthLimit))
+        pair_.isWithinASurface() && isExplained == (deepest_ > plane.depthLimit))
     {
       plane.pairing = Pairing::Growing;
       pair_.growIn();

@@ -276,15 +276,13 @@ private:
   /// With which a pair begins that comes from the side or by turning: the share of the smaller face
   /// that it covers, times how opposed it is [-].
   static constexpr Real largestBeginning = 0.1;
-  /// How deep such pairs may lie, over the thinner element: as deep as searches look for them.
-  static constexpr Real deepestWithin = 0.9;
   /// Whether a pair has little of its energy yet, as it covers little of its faces or is hardly
   /// opposed.
   KOKKOS_INLINE_FUNCTION bool beginsLittle() const;
   /// Whether a pair may begin deep within a surface, if it has little of its energy.
   static KOKKOS_INLINE_FUNCTION bool mayGrow(const Plane& plane)
   {
-    return plane.pairing < Pairing::OfOneBody && !plane.isRefused() && !plane.crushedUnevenly;
+    return plane.pairing != Pairing::Stiff && !plane.isRefused() && !plane.crushedUnevenly;
   }
 
   /// Motion, law and forces of the planes that carry.
