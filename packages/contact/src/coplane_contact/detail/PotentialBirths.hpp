@@ -96,39 +96,36 @@ KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::refuse(Plane& plane, in
   if (!plane.isRefused() && branchFree::lane(pair_.hidden, i))
     plane.refusal = Refusal::Hidden;
   const Real start = smallestStart(plane, 2 * dt_ * branchFree::lane(speed_, i));
-  // What is found with area in common does not come from the side.
+  // What slides on takes up where a neighbour leaves off, whose mean closure is no less than a
+  // quarter of that at its border. What is found with area in common is no such border.
   const bool comesFromTheSide = !closedBefore && plane.sighting != Sighting::Woken;
-  const Real carriedBeside = plane.isBorn() || plane.isInherited() ? Real(plane.closure) : 0;
+  const Real carriedBeside = (plane.lineage == Lineage::SlidesOn && comesFromTheSide ? 4
+                              : plane.isBorn() || plane.isInherited()                ? 1
+                                                                                     : 0) *
+                             plane.closure;
   // The surface of a joint that has closed for good lies as deep as that.
   Real permanent = permanents_[i];
   if constexpr (width == 1)
     if (plane.crushedUnevenly)
       permanent = deepest_ - pair_.mostBeyondCrushing();
-  const auto beyond = [&](Real explained)
-  {
-    const Real depth =
-        branchFree::lane(deepest_, i) - (explained > permanent ? explained : permanent);
-    // An offset that has only just been taken over does not say how deep faces lie in each other.
-    return closedBefore && !late_[i] && -leastGaps_[i] < depth ? -leastGaps_[i] : depth;
-  };
-  if (!(beyond(carriedBeside) > start))
+  const Real explained = carriedBeside > permanent ? carriedBeside : permanent;
+  Real depth = branchFree::lane(deepest_, i) - explained;
+  // An offset that has only just been taken over does not say how deep faces lie in each other.
+  if (closedBefore && !late_[i] && -leastGaps_[i] < depth)
+    depth = -leastGaps_[i];
+  if (!(depth > start))
     return;
-  // What slides on takes up where a neighbour leaves off, whose mean closure is no less than a
-  // quarter of that at its border.
-  const bool slidesOn = plane.lineage == Lineage::SlidesOn && comesFromTheSide;
-  const bool isExplained = slidesOn && !(beyond(4 * carriedBeside) > start);
   // What begins with little of its area, or hardly opposed, begins with little energy, however
   // deep it lies. Where the surface goes on it has come from beside, or rolled on.
   if constexpr (width == 1)
     if (comesFromTheSide && mayGrow(plane) && !crushes_[i] && beginsLittle() &&
-        pair_.isWithinASurface() && isExplained == (deepest_ > plane.depthLimit))
+        pair_.isWithinASurface() && deepest_ < plane.depthLimit)
     {
       plane.pairing = Pairing::Growing;
       pair_.growIn();
       return;
     }
-  if (!isExplained)
-    plane.refusal = Refusal::Deep;
+  plane.refusal = Refusal::Deep;
 }
 
 template <int Dim, class T>
