@@ -304,6 +304,14 @@ TEST(RefusalOfThePotential, whatBeginsWithLittleIsNotDeepWhereItsSurfaceGoesOn)
   EXPECT_TRUE(afterItCameAside(.01, .06, 0, Pairing::Stiff).isRefused());
 }
 
+TEST(RefusalOfThePotential, theStepCountsHowWhatBeginsDeepGrows)
+{
+  // Twice the row sum, on a hundredth of a face: k (1.69 / 0.2) c^2 / l beside k w.
+  const Real growth = 1e3 * 1.69 / .2 * .06 * .06;
+  EXPECT_GT(afterItCameAside(.01, .06, 0).nodeStiffness, 2 * growth);
+  EXPECT_LT(afterItCameAside(.01, .01, 0).nodeStiffness, growth); // not deep: it does not grow
+}
+
 TEST(RefusalOfThePotential, whatTurnsUntilItIsOpposedBeginsWithLittle)
 {
   EXPECT_FALSE(afterItTurned(.01, .06, 0).isRefused());

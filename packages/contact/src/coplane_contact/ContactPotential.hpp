@@ -117,19 +117,7 @@ public:
   KOKKOS_FORCEINLINE_FUNCTION void growIn() { growing_ = true; }
   /// What the growth adds to the stiffness at a node, over k: of k/2 c^2 A times a SoftStep of A
   /// over grownAt times a face of area S, whose border of length L moves [m^2].
-  KOKKOS_INLINE_FUNCTION Real growthStiffness(Real deepest) const
-  {
-    if (!growing_ || !(overlap * perShare() < grownAt))
-      return 0;
-    Real border = Dim == 2 ? 1 : 0; // the square of its length
-    for (int f = 0; f < 2 && Dim == 3; ++f)
-      for (int i = 0; i < face_[f]->count && face_[f]->area == size_; ++i)
-      {
-        const Vec3 edge = face_[f]->x[i + 1 == face_[f]->count ? 0 : i + 1] - face_[f]->x[i];
-        border = branchFree::larger(dot(edge, edge), border);
-      }
-    return 1.69 / grownAt * deepest * deepest * border / size_;
-  }
+  KOKKOS_INLINE_FUNCTION Real growthStiffness(Real deepest) const;
 
   /// phi, and what it changes by. The energy E = U phi(xi, U) rises with U at any angle: phi falls
   /// no faster than 1/U, since phi begins as the square of xi and the range grows no faster

@@ -188,6 +188,21 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addGrowth(const Real& scale, 
 }
 
 template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION Real PairPotential<Dim, T>::growthStiffness(Real deepest) const
+{
+  if (!growing_ || !(overlap * perShare() < grownAt))
+    return 0;
+  Real border = Dim == 2 ? 1 : 0; // the square of its length
+  for (int f = 0; f < 2 && Dim == 3; ++f)
+    for (int i = 0; i < face_[f]->count && face_[f]->area == size_; ++i)
+    {
+      const Vec3 edge = face_[f]->x[i + 1 == face_[f]->count ? 0 : i + 1] - face_[f]->x[i];
+      border = branchFree::larger(dot(edge, edge), border);
+    }
+  return 1.69 / grownAt * deepest * deepest * border / size_;
+}
+
+template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addFacing(Vec2 (&rim)[2][4]) const
 {
   if constexpr (Dim == 3)

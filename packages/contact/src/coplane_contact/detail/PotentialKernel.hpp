@@ -282,7 +282,7 @@ private:
   /// Whether a pair may begin deep within a surface, if it has little of its energy.
   static KOKKOS_INLINE_FUNCTION bool mayGrow(const Plane& plane)
   {
-    return plane.pairing != Pairing::Stiff && !plane.isRefused() && !plane.crushedUnevenly;
+    return plane.pairing != Pairing::Stiff && !plane.isRefused();
   }
 
   /// Motion, law and forces of the planes that carry.
