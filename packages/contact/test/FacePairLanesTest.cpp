@@ -59,7 +59,7 @@ struct PairTable
       plane.offset = .05 * u(random);
       plane.normal = normalised(Vec3{u(random), u(random), z * u(random)});
       plane.depthLimit = random() % 2 == 0 ? 1 : .2F;
-      plane.pairing = Pairing(random() % 3);
+      plane.pairing = Pairing(random() % 5);
       plane.turns = std::uint8_t(random());
       plane.exits = std::uint8_t(plane.turns & random());
       plane.covered = std::uint8_t(random() & random() & random());

@@ -299,9 +299,20 @@ TEST(RefusalOfThePotential, whatBeginsWithLittleIsNotDeepWhereItsSurfaceGoesOn)
   }
   EXPECT_FALSE(afterItCameAside(.09, .06, 0).isRefused());
   EXPECT_TRUE(afterItCameAside(.11, .06, 0).isRefused()); // at once by more than a tenth
-  EXPECT_FALSE(afterItCameAside(.01, .09, 0).isRefused());
-  EXPECT_TRUE(afterItCameAside(.01, .11, 0).isRefused()); // beyond the depth limit
+  // Up to 1.25 of the depth limit, and to that where a back may be near.
+  EXPECT_FALSE(afterItCameAside(.01, .12, 0).isRefused());
+  EXPECT_TRUE(afterItCameAside(.01, .13, 0).isRefused());
+  EXPECT_FALSE(afterItCameAside(.01, .09, 0, Pairing::Shallow).isRefused());
+  EXPECT_TRUE(afterItCameAside(.01, .11, 0, Pairing::Shallow).isRefused());
   EXPECT_TRUE(afterItCameAside(.01, .06, 0, Pairing::Stiff).isRefused());
+}
+
+TEST(RefusalOfThePotential, whatGrowsStaysShallow)
+{
+  EXPECT_EQ(afterItCameAside(.01, .06, 0).pairing, Pairing::Growing);
+  EXPECT_EQ(afterItCameAside(.01, .06, 0, Pairing::Shallow).pairing, Pairing::ShallowGrowing);
+  EXPECT_EQ(afterItCameAside(.01, .01, 0, Pairing::ShallowGrowing).pairing, Pairing::Shallow);
+  EXPECT_EQ(afterItCameAside(.01, .01, 0, Pairing::Growing).pairing, Pairing::Usual);
 }
 
 TEST(RefusalOfThePotential, theStepCountsHowWhatBeginsDeepGrows)

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace coplane
 {
 namespace
@@ -111,6 +113,58 @@ TEST_P(ErodingBodies, loadsEndWithTheElementThatCarriedThem)
   EXPECT_EQ(solver.momenta().impulse.z, impulse.z);
   EXPECT_EQ(largest(solver.state().force, solver.layout().owned(), comm), 0);
   EXPECT_EQ(solver.contact().faces().size(), 0u);
+}
+
+namespace
+{
+/// Exterior faces and those of them that are thin, of all ranks.
+std::array<std::int64_t, 2> facesAndThin(const Solver& solver, const Comm& comm)
+{
+  std::array<std::int64_t, 2> count{};
+  for (const Face& face : solver.contact().localFaces())
+    if (face.ownedHere)
+    {
+      ++count[0];
+      count[1] += face.thin;
+    }
+  return {comm.sum(count[0]), comm.sum(count[1])};
+}
+} // namespace
+
+TEST_P(ErodingBodies, facesAreThinWhereBodiesAreOneElementThick)
+{
+  using Counts = std::array<std::int64_t, 2>;
+  const Comm comm;
+  for (const char* const method : {"multijagged", "scattered"})
+  {
+    const auto counted = [&](int thick)
+    {
+      Mesh mesh;
+      addBox(mesh, "block", {4, 4, thick}, {0, 0, 0}, {4, 4, Real(thick)});
+      return facesAndThin(Solver(rockModel(mesh, comm, 0, method), comm), comm);
+    };
+    EXPECT_EQ(counted(3), (Counts{80, 0})) << method;
+    EXPECT_EQ(counted(2), (Counts{64, 0})) << method;
+    EXPECT_EQ(counted(1), (Counts{48, 48})) << method;
+  }
+  // A plate of two layers goes on beyond its plane of symmetry.
+  Mesh half;
+  addBox(half, "half", {4, 4, 1}, {0, 0, 0}, {4, 4, 1});
+  Model cut = rockModel(half, comm);
+  cut.conditions.symmetries = {
+      {ownedNodesWhere(cut.mesh, [](const Vec3& x) { return x.z == 0; }), {0, 0, 1}}};
+  EXPECT_EQ(facesAndThin(Solver(std::move(cut), comm), comm), (Counts{48, 0}));
+  // The middle one of three layers dies: the outer ones are plates then.
+  Mesh mesh;
+  addBox(mesh, "block", {4, 4, 3}, {0, 0, 0}, {4, 4, 3});
+  Model model = rockModel(mesh, comm);
+  model.blocks[0].erosion.volumeRatio = {0.5, 1 + 1e-5};
+  model.blocks[0].velocityField = [](const Vec3& x) { return Vec3{0, 0, x.z < 1.5 ? -1.0 : 1.0}; };
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  cycles(solver, 3);
+  ASSERT_EQ(solver.erosion().elements, 16);
+  EXPECT_EQ(facesAndThin(solver, comm), (Counts{96, 96}));
 }
 
 TEST_P(ErodingBodies, damageIsAGateForTheOtherLimits)

@@ -94,11 +94,8 @@ for name, how in (
     run = case.run(f"punch {name}", *slid_block(**how), energy=5e-3, momentum=1e-11)
     force = run.history["touch_normal_force"]
     slid = force[len(force) // 2 :]
-    # Of these three corners come to lie deeper than the depth limit: they let go.
-    lost = name in ("to 0.8, slid on, finer", "to 0.8, slid on, slab finer", "to 0.7, slid on, in space")
-    told = " (reported: we differ)" if lost else ""
     least = 0.68 if "slid on" in name else 0.85  # one that is led so far tilts and rolls
-    case.check(f"punch {name}: least force while it slides over the largest{told}", slid.min() / force.max(), 1, 1 - least, report=lost)
+    case.check(f"punch {name}: least force while it slides over the largest", slid.min() / force.max(), 1, 1 - least)
     remainder = run.history["contact_remainder"][-1] / abs(run.history["external_work"]).max()
-    case.check(f"punch {name}: contact remainder over the work", remainder, 0, 5e-3 if lost else 2e-3)
+    case.check(f"punch {name}: contact remainder over the work", remainder, 0, 2e-3)
 case.finish()

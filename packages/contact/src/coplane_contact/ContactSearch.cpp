@@ -150,6 +150,7 @@ private:
       return;
     plane->face[0] = pair.lower;
     plane->face[1] = pair.higher;
+    plane->pairAs(isShallow(faces_[pair.lower], faces_[pair.higher]), plane->isGrowing());
     if (plane->sighting == Sighting::Missed)
       plane->sighting = Sighting::Woken;
     if (!(plane->area > 0)) // told when it comes near

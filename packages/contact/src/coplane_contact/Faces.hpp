@@ -31,6 +31,7 @@ struct Face
       false;          ///< this rank owns the node with the lowest id: it sends the face to others
   bool young = false; ///< was inside the body until now: planes on it inherit nothing
   bool rigid = false; ///< the element behind it is never computed
+  bool thin = false;  ///< all nodes of the element behind it are at the surface: so may a back be
   /// By node: bit i says that it is held in mirror i of the contact rules.
   std::uint8_t mirrors[4] = {0, 0, 0, 0};
 
@@ -43,6 +44,12 @@ struct Face
     return all != 0;
   }
 };
+
+/// What is deep behind one of them may be near its back.
+inline bool isShallow(const Face& a, const Face& b)
+{
+  return a.thin || b.thin;
+}
 
 /// A face on its way to another rank.
 struct GhostFace
@@ -60,6 +67,7 @@ struct GhostFace
   Real pressure = 0;
   bool young = false;
   bool rigid = false;
+  bool thin = false;
   std::uint8_t mirrors[4] = {0, 0, 0, 0};
 };
 
@@ -92,6 +100,7 @@ inline GhostFace toGhostFace(const Face& face, const std::vector<GlobalId>& node
   ghost.pressure = face.pressure;
   ghost.young = face.young;
   ghost.rigid = face.rigid;
+  ghost.thin = face.thin;
   std::copy_n(face.mirrors, 4, ghost.mirrors);
   for (int k = 0; k < face.count; ++k)
     ghost.nodes[k] = nodeIds[face.nodes[k]];
@@ -116,6 +125,7 @@ Face toFace(const GhostFace& ghost, const LocalNode& localNode)
   face.pressure = ghost.pressure;
   face.young = ghost.young;
   face.rigid = ghost.rigid;
+  face.thin = ghost.thin;
   std::copy_n(ghost.mirrors, 4, face.mirrors);
   for (int k = 0; k < ghost.count; ++k)
     face.nodes[k] = localNode(ghost.nodes[k]);

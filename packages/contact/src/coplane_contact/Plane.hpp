@@ -69,6 +69,10 @@ struct ContactOptions
   Real lookAhead = 0;
 };
 
+/// Pairs of the potential are looked for up to this depth, over the thinner element: its force has
+/// no end [-].
+constexpr Real deepestPair = 0.9;
+
 /// Life of a plane: a pair of faces that has not touched yet is none.
 enum class PlaneState : std::uint8_t
 {
@@ -109,7 +113,9 @@ enum class Pairing : std::uint8_t
 {
   Usual,
   Growing, ///< from when it began deep within a surface until it begins anew (potential only)
-  Stiff    ///< the joint by far stiffer than what is behind, or rigid bodies: see weightInStep()
+  Shallow, ///< all nodes of the element behind one of them are at the surface: a back may be near
+  ShallowGrowing,
+  Stiff ///< the joint by far stiffer than what is behind, or rigid bodies: see weightInStep()
 };
 
 /// Crushing of a joint whose value is linear over face 0, and counts where it is positive, in the
@@ -237,7 +243,7 @@ struct alignas(64) Plane
   /// Whether it carries by how much its faces share: it began deep (PairPotential::growIn).
   KOKKOS_INLINE_FUNCTION bool carriesGrowing() const
   {
-    return pairing == Pairing::Growing && area > 0 && !history.bonded;
+    return isGrowing() && area > 0 && !history.bonded;
   }
 
   /// How much the plane counts for the stable step [-]. Inside the step in which a node meets a
@@ -249,6 +255,28 @@ struct alignas(64) Plane
   KOKKOS_INLINE_FUNCTION Real weightInStep() const
   {
     return pairing == Pairing::Stiff && !declared ? 4 : 1;
+  }
+
+  KOKKOS_INLINE_FUNCTION bool isShallow() const
+  {
+    return pairing == Pairing::Shallow || pairing == Pairing::ShallowGrowing;
+  }
+  KOKKOS_INLINE_FUNCTION bool isGrowing() const
+  {
+    return pairing == Pairing::Growing || pairing == Pairing::ShallowGrowing;
+  }
+  /// What they are to each other but for stiff joints.
+  KOKKOS_INLINE_FUNCTION void pairAs(bool shallow, bool growing)
+  {
+    if (pairing != Pairing::Stiff)
+      pairing = shallow ? (growing ? Pairing::ShallowGrowing : Pairing::Shallow)
+                        : (growing ? Pairing::Growing : Pairing::Usual);
+  }
+  /// Less deep than this a pair may begin with little energy, and grow: within reach of searches,
+  /// which know pairs down to `deepestPair` [m].
+  KOKKOS_INLINE_FUNCTION Real deepestToGrow() const
+  {
+    return isShallow() ? depthLimit : 1.25 * depthLimit;
   }
 
   /// Closure that the law sees: beyond the depth limit the force is frozen [m].

@@ -85,6 +85,7 @@ Plane PlaneTable::freshPlane(std::size_t slot) const
       (a.rigid && b.rigid) ||
       stiffest * (a.thickness / a.modulus + b.thickness / b.modulus) > stiffestCalm;
   plane.pairing = isStiff ? Pairing::Stiff : Pairing::Usual;
+  plane.pairAs(isShallow(a, b), false);
   plane.depthLimit = float(depthMax_ * std::min(a.thickness, b.thickness));
   if (!slots_.edges.empty())
     putEdges(slots_.edges[slot], plane);
@@ -107,6 +108,8 @@ Plane PlaneTable::prepared(std::size_t slot) const
 
 bool PlaneTable::isBare(std::size_t slot, const Plane& prepared) const
 {
+  if (slots_.faces(slot).face[0] < 0) // dormant
+    return false;
   Plane bare = freshPlane(slot);
   putEdges({prepared.exits, prepared.turns, prepared.covered, prepared.seams}, bare);
   return sameNumbers(prepared, bare);

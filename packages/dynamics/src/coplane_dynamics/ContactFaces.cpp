@@ -90,4 +90,17 @@ std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBl
   }
   return faces;
 }
+
+void markThinFaces(std::vector<Face>& faces, const NodeLayout& layout)
+{
+  const Array<Real> atSurface("coplane::dynamics::atSurface", std::size_t(layout.size()));
+  for (const Face& face : faces)
+    for (int k = 0; k < face.count && !face.isCut(); ++k)
+      atSurface(face.nodes[k]) = 1; // where it is owned, by all faces that it has
+  layout.refresh(atSurface);
+  for (Face& face : faces)
+    face.thin = !face.isCut() &&
+                std::none_of(face.far, face.far + 4,
+                             [&](int node) { return node >= 0 && !(atSurface(node) > 0); });
+}
 } // namespace coplane

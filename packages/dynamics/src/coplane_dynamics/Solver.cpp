@@ -145,6 +145,7 @@ std::vector<Face> Solver::facesOf(const std::vector<ExteriorFace>& exterior,
     for (int k = 0; k < face.count; ++k)
       face.mirrors[k] = std::uint8_t(mirrors_.ofNode[std::size_t(face.nodes[k])]);
   }
+  markThinFaces(faces, layout_);
   return faces;
 }
 

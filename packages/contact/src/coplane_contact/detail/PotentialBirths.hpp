@@ -20,8 +20,8 @@ template <int Dim, class T>
 KOKKOS_FORCEINLINE_FUNCTION bool PotentialCycle<Dim, T>::carries(Plane& plane, int i)
 {
   const bool carried = plane.area > 0;
-  if (!carried && plane.pairing == Pairing::Growing)
-    plane.pairing = Pairing::Usual;
+  if (!carried)
+    plane.pairAs(plane.isShallow(), false);
   const Before before = late_[i]                       ? Before::Closed
                         : carried || plane.isRefused() ? Before::Open
                                                        : stepBefore(plane, i);
@@ -119,9 +119,9 @@ KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::refuse(Plane& plane, in
   // deep it lies. Where the surface goes on it has come from beside, or rolled on.
   if constexpr (width == 1)
     if (comesFromTheSide && mayGrow(plane) && !crushes_[i] && beginsLittle() &&
-        pair_.isWithinASurface() && deepest_ < plane.depthLimit)
+        pair_.isWithinASurface() && deepest_ < plane.deepestToGrow())
     {
-      plane.pairing = Pairing::Growing;
+      plane.pairAs(plane.isShallow(), true);
       pair_.growIn();
       return;
     }

@@ -319,8 +319,8 @@ private:
                   branchFree::lane(loaded, i), branchFree::lane(tau, i),
                   branchFree::lane(increment, i), branchFree::lane(relative.closing, i), response);
         // What can leave sideways is not deep.
-        plane.tooDeep = plane.tooDeep && (branchFree::lane(share, i) > alongThePlane ||
-                                          plane.pairing == Pairing::Growing);
+        plane.tooDeep =
+            plane.tooDeep && (branchFree::lane(share, i) > alongThePlane || plane.isGrowing());
       }
 
     if constexpr (width == 1)

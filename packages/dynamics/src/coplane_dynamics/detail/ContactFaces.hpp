@@ -3,6 +3,7 @@
 #include <coplane_contact/Faces.hpp>
 #include <coplane_core/NodeViews.hpp>
 #include <coplane_element/ElementBlock.hpp>
+#include <coplane_mesh/NodeLayout.hpp>
 #include <coplane_mesh/RankMesh.hpp>
 
 #include <utility>
@@ -20,4 +21,7 @@ std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBl
                                const std::vector<int>& bodyOfNode,
                                const std::vector<ExteriorFace>& exterior, const ConstNodeVectors& x,
                                const std::vector<Face>* known = nullptr);
+
+/// Sets Face::thin of all exterior faces of this rank, whose mirrors are known. Collective.
+void markThinFaces(std::vector<Face>& faces, const NodeLayout& layout);
 } // namespace coplane
