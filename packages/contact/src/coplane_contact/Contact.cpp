@@ -92,6 +92,7 @@ void Contact::endPlanesOf(const std::vector<GlobalId>& deadElements,
     ended_.add(plane, eroded);
   }
   planes_.drop(ending);
+  planesHaveChanged();
 }
 
 void Contact::replaceLocalFaces(std::vector<Face> localFaces)
@@ -184,7 +185,7 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
     updatePairs(substepped_.othersOf(near_.slots()), dt);
   }
   planes_.listWoken();
-  shown_.reset();
+  planesHaveChanged();
   if (searches_.sinceUpdate && searches_.count > 1)
     for (std::size_t p = 0; p < planes().size(); ++p)
       if (const Plane& plane = planes()[p];
@@ -212,6 +213,7 @@ void Contact::updateSubstepped(const ConstNodeVectors& x, const Substep& step)
 {
   pairedFaces_.stepA(motionOf(x, step.v, step.dt), substepped_.nearFaces());
   updatePairs(substepped_.near(), step.dt);
+  planesHaveChanged();
   planes_.listWoken(); // a search, or elements that die, may come before the next update
 }
 
@@ -288,42 +290,76 @@ bool Contact::wasMissed(const Plane& plane, const ConstNodeVectors& x) const
                       reach_.rulesWith(rules_), reach_.movedBetween(), reach_.turningWithinSkin());
 }
 
+void Contact::Tally::add(const Tally& others)
+{
+  counts.add(others.counts);
+  for (std::size_t joint = 0; joint < energies.size(); ++joint)
+    energies[joint].add(others.energies[joint]);
+}
+
+const Contact::Tally& Contact::tally() const
+{
+  if (!tally_)
+    tally_ = sumInParts("coplane::contact::tally", planes().size(),
+                        Tally{{}, std::vector<PlaneEnergySums>(rules_.joints.size())},
+                        [&](Tally& mine, std::size_t p)
+                        {
+                          const Plane& plane = planes()[p];
+                          if (!plane.countedHere)
+                            return;
+                          ContactCounts& counts = mine.counts;
+                          counts.carrying += plane.area > 0;
+                          counts.planes += plane.isBorn();
+                          counts.open += plane.state == PlaneState::Open;
+                          counts.stick += plane.state == PlaneState::Stick;
+                          counts.slip += plane.state == PlaneState::Slip;
+                          counts.tooDeep += plane.tooDeep;
+                          counts.released += plane.refusal == Refusal::Deep;
+                          if (plane.isBorn())
+                            mine.energies[plane.joint].add(plane, plane.stored);
+                        });
+  return *tally_;
+}
+
 ContactEnergy Contact::energy() const
 {
   PlaneEnergySums mine;
   for (const auto& [kind, sums] : ended_.byKind())
     mine.add(sums);
-  mine.add(sumInParts("coplane::contact::energy", planes().size(), PlaneEnergySums{},
-                      [&](PlaneEnergySums& sums, std::size_t p)
-                      {
-                        const Plane& plane = planes()[p];
-                        if (plane.countedHere && plane.isBorn())
-                          sums.add(plane, plane.stored);
-                      }));
+  for (const PlaneEnergySums& ofJoint : tally().energies)
+    mine.add(ofJoint);
   std::vector<ExactSum> sums(mine.sums.begin(), mine.sums.end());
   return PlaneEnergySums::energyOf(ExactSum::overRanks(sums, *comm_).data());
 }
 
+std::int64_t Contact::lookedAtHere() const
+{
+  // A block at a time, so that what is far is told side by side.
+  constexpr std::size_t width = 512;
+  struct Sum
+  {
+    std::int64_t lookedAt = 0;
+    void add(const Sum& other) { lookedAt += other.lookedAt; }
+  };
+  const PlaneTable::Slots& slots = planes_.slots();
+  const auto take = [&](Sum& mine, std::size_t block)
+  {
+    const std::size_t first = width * block, count = std::min(width, planes_.count() - first);
+    std::uint8_t far[width] = {};
+    if (distances_.known())
+      distances_.areFar(int(first), int(count), far);
+    for (std::size_t i = 0; i < count; ++i)
+      mine.lookedAt += slots.countedHere(first + i) && slots.faces(first + i).face[0] >= 0 &&
+                       !(far[i] && planes_.carriesNothing(first + i));
+  };
+  const std::size_t blocks = (planes_.count() + width - 1) / width;
+  return sumInParts("coplane::contact::lookedAt", blocks, Sum{}, take).lookedAt;
+}
+
 ContactCounts Contact::counts() const
 {
-  ContactCounts counts =
-      sumInParts("coplane::contact::counts", planes_.count(), ContactCounts{},
-                 [&](ContactCounts& mine, std::size_t slot)
-                 {
-                   const int lower = planes_.slots().faces(slot).face[0];
-                   mine.lookedAt += lower >= 0 && faces()[lower].ownedHere &&
-                                    !(planes_.carriesNothing(slot) && distances_.isFar(int(slot)));
-                   const Plane* const plane = planes_.slots().plane[slot];
-                   if (plane == nullptr || !plane->countedHere)
-                     return;
-                   mine.carrying += plane->area > 0;
-                   mine.planes += plane->isBorn();
-                   mine.open += plane->state == PlaneState::Open;
-                   mine.stick += plane->state == PlaneState::Stick;
-                   mine.slip += plane->state == PlaneState::Slip;
-                   mine.tooDeep += plane->tooDeep;
-                   mine.released += plane->refusal == Refusal::Deep;
-                 });
+  ContactCounts counts = tally().counts;
+  counts.lookedAt = lookedAtHere();
   counts.slots = planes_.countedHere();
   counts.missed = searches_.missed;
   std::vector<std::int64_t> sums;

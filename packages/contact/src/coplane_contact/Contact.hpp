@@ -216,6 +216,16 @@ public:
   Real gainHere() const { return planes_.gain(); }
   /// Energies of the planes that have ended and were counted on this rank.
   const EndedPlanes& ended() const { return ended_; }
+  /// What the planes of this rank that are counted here add up to.
+  struct Tally
+  {
+    ContactCounts counts;                  ///< of planes, not of slots
+    std::vector<PlaneEnergySums> energies; ///< by joint card, without those that have ended
+
+    void add(const Tally& others);
+  };
+  /// Found once until the planes change: records ask for its parts one after the other.
+  const Tally& tally() const;
 
   /// Law of a plane.
   const JointLaw& lawOf(const Plane& plane) const { return rules_.joints[plane.joint].law; }
@@ -324,10 +334,17 @@ private:
   std::vector<Coinciding> coincidingFaces(const ConstNodeVectors& x,
                                           const std::vector<std::size_t>& slots) const;
   void listSlotsOfFaces(int ownedNodes);
+  void planesHaveChanged()
+  {
+    shown_.reset();
+    tally_.reset();
+  }
   bool isIncremental() const { return options_.closure == ContactOptions::Closure::Incremental; }
   PairTables pairTables();
   void listSubsteppedNear();
   void updatePairs(const std::vector<int>& slots, Real dt);
+  /// Pairs counted here that are not left out because their faces are far apart.
+  std::int64_t lookedAtHere() const;
   /// Whether the last update may have left out an open plane.
   bool wasPassedOver(std::size_t slot) const;
   /// How far the pairs of a search are from each other. @param planes of the faces, x (a copy) and
@@ -367,5 +384,6 @@ private:
   ForceSums forceSums_;
   EndedPlanes ended_;
   mutable std::optional<Shown> shown_; ///< planesNow()
+  mutable std::optional<Tally> tally_;
 };
 } // namespace coplane

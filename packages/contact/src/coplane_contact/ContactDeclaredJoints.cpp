@@ -257,6 +257,7 @@ Contact::Overpressed Contact::closeDeclaredJoints(const ConstNodeVectors& x,
       ++worst.planes;
   }
   planes_.listWoken();
+  planesHaveChanged();
   Overpressed all;
   for (const Overpressed& ofRank : comm_->allGather(std::vector<Overpressed>{worst}))
   {

@@ -379,7 +379,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
       SlotFiller(options_.inherit, faces(), planes_, slots, preparation).made();
   planes_.take(std::move(made), faces_.forKernels(), std::move(preparation));
   measureDistances(place.x, v);
-  shown_.reset();
+  planesHaveChanged();
   firstHalf_ = {};
   ghostsElsewhere_ = {};
   reach_.end();

@@ -268,7 +268,7 @@ void Contact::restorePlanes(const StateSource& in, const NodeLayout& layout)
   searches_.sinceUpdate = false;
   reach_.setOffset(counts.at(2));
   distances_.forget();
-  shown_.reset();
+  planesHaveChanged();
   if (comm_->isRoot())
     ended_.addNumbers(in.numbers("contact/ended"));
   else

@@ -87,22 +87,16 @@ std::vector<JointSummary> jointSummaries(const Contact& contact, const ConstNode
   {
     ExactSums sums; ///< PerJoint of each joint
     std::vector<Real> largestSlip;
-    std::vector<PlaneEnergySums> energies;
 
     void add(const Sums& other)
     {
       sums.add(other.sums);
-      for (std::size_t j = 0; j < energies.size(); ++j)
-      {
+      for (std::size_t j = 0; j < largestSlip.size(); ++j)
         largestSlip[j] = std::max(largestSlip[j], other.largestSlip[j]);
-        energies[j].add(other.energies[j]);
-      }
     }
   };
   const std::size_t joints = contact.rules().joints.size();
-  const Sums none{{std::vector<ExactSum>(PerJoint * joints)},
-                  std::vector<Real>(joints, 0),
-                  std::vector<PlaneEnergySums>(joints)};
+  const Sums none{{std::vector<ExactSum>(PerJoint * joints)}, std::vector<Real>(joints, 0)};
   const Array<Extent> extents(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::extents"),
                               contact.faces().size());
   parallelFor("coplane::contact::extents", int(extents.size()),
@@ -115,7 +109,6 @@ std::vector<JointSummary> jointSummaries(const Contact& contact, const ConstNode
     const Plane& plane = planes[p];
     if (!plane.countedHere || !plane.isBorn())
       return;
-    all.energies[plane.joint].add(plane, plane.stored);
     ExactSum* mine = &all.sums[PerJoint * plane.joint];
     mine[Force].add(plane.area * plane.normalTraction);
     if (!facesLieOverEachOther(plane, extents))
@@ -131,11 +124,16 @@ std::vector<JointSummary> jointSummaries(const Contact& contact, const ConstNode
     all.largestSlip[plane.joint] = std::max(all.largestSlip[plane.joint], plane.history.slip);
   };
   Sums all = sumInParts("coplane::contact::jointSummaries", planes.size(), none, take);
+  const auto addEnergies = [&](std::size_t joint, const PlaneEnergySums& energies)
+  {
+    for (int term = 0; term < PlaneEnergySums::Terms; ++term)
+      all.sums[PerJoint * joint + Energies + std::size_t(term)].add(
+          energies.sums[std::size_t(term)]);
+  };
   for (const auto& [kind, ended] : contact.ended().byKind())
-    all.energies[kind.joint].add(ended);
+    addEnergies(std::size_t(kind.joint), ended);
   for (std::size_t j = 0; j < joints; ++j)
-    std::copy(all.energies[j].sums.begin(), all.energies[j].sums.end(),
-              &all.sums[PerJoint * j + Energies]);
+    addEnergies(j, contact.tally().energies[j]);
   const std::vector<Real> totals = ExactSum::overRanks(all.sums.each, contact.comm());
   contact.comm().max(all.largestSlip);
 

@@ -39,7 +39,8 @@ void PlaneList::add(std::size_t slot, Plane* plane)
 PlaneTable::Slots::Slots(std::size_t count, std::size_t planes)
     : faces("coplane::contact::slotFaces", count), plane(count, nullptr),
       activity("coplane::contact::activity", count), todo("coplane::contact::todo", count),
-      born("coplane::contact::born", count), gains("coplane::contact::gains", count),
+      countedHere("coplane::contact::countedHere", count), born("coplane::contact::born", count),
+      gains("coplane::contact::gains", count),
       stored(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), planes)
 {
 }
@@ -135,20 +136,17 @@ void PlaneTable::take(Slots slots, const Array<Face>& faces, Preparation prepara
   parallelFor("coplane::contact::slots", int(count()),
               [&](const int p)
               {
-                if (const Plane* const plane = slots_.plane[p])
-                {
-                  slots_.activity(p) = activityOf(*plane);
-                  for (int side = 0; side < 2; ++side)
-                    slots_.faces(p).face[side] = plane->face[side];
-                }
+                const Plane* const plane = slots_.plane[p];
+                slots_.countedHere(p) = plane != nullptr
+                                            ? plane->countedHere
+                                            : faces_(slots_.faces(p).face[0]).ownedHere;
+                if (plane == nullptr)
+                  return;
+                slots_.activity(p) = activityOf(*plane);
+                for (int side = 0; side < 2; ++side)
+                  slots_.faces(p).face[side] = plane->face[side];
               });
-  countedHere_ = 0;
-  for (std::size_t p = 0; p < count(); ++p)
-  {
-    const Plane* const plane = slots_.plane[p];
-    countedHere_ +=
-        plane != nullptr ? plane->countedHere : faces_(slots_.faces(p).face[0]).ownedHere;
-  }
+  countedHere_ = std::count(slots_.countedHere.data(), slots_.countedHere.data() + count(), 1);
   list();
 }
 

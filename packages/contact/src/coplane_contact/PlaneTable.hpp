@@ -70,11 +70,12 @@ public:
     /// @param planes how many have their plane at once
     Slots(std::size_t count, std::size_t planes);
 
-    SlotTable faces;           ///< as in the plane
-    std::vector<Plane*> plane; ///< null: none yet
-    Array<Activity> activity;  ///< without a plane: not Awake once it has been looked at
-    Array<std::uint8_t> todo;  ///< what it has not been told yet (Preparation::Todo)
-    Array<std::uint8_t> born;  ///< 1 where renew() has found a plane that is born
+    SlotTable faces;                 ///< as in the plane
+    std::vector<Plane*> plane;       ///< null: none yet
+    Array<Activity> activity;        ///< without a plane: not Awake once it has been looked at
+    Array<std::uint8_t> todo;        ///< what it has not been told yet (Preparation::Todo)
+    Array<std::uint8_t> countedHere; ///< 1: this rank owns face 0. Set by take()
+    Array<std::uint8_t> born;        ///< 1 where renew() has found a plane that is born
     /// Minus the remainder of its plane, if that is born and counted here, since it was evaluated
     /// last [J]; gain() fills in the others.
     Array<Real> gains;
