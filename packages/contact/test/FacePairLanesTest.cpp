@@ -64,6 +64,15 @@ struct PairTable
       plane.exits = std::uint8_t(plane.turns & random());
       plane.covered = std::uint8_t(random() & random() & random());
       plane.seams = std::uint8_t(random() & random() & ~plane.turns);
+      if (p % 16 == 7) // beside each other, and deep in what they share
+      {
+        const Vec3 along = pair.a.x[1] - pair.a.x[0];
+        pair.b.count = pair.a.count;
+        for (int i = 0; i < pair.a.count; ++i)
+          pair.b.x[i] = pair.a.x[pair.a.count - 1 - i] + (1 - 1e-5 * (p % 1000)) * along;
+        plane.offset = .3;
+        plane.exits = plane.turns = 0xFF;
+      }
       plane.fit.normalStiffness = 10;
       plane.fit.shearStiffness = 5;
       plane.fit.stiffnessCap = 100;
@@ -188,6 +197,7 @@ struct Seen
   int carrying = 0, irregular = 0, woken = 0, asleep = 0;
   int uneven = 0, byShear = 0, even = 0; ///< crushed
   int loaded = 0, begun = 0;             ///< on the curve that stiffens most
+  int narrow = 0;                        ///< closed, and too narrow to carry
 };
 
 template <int Dim>
@@ -212,6 +222,8 @@ Seen expectTheBitsOfOnePairAtATime(const ContactOptions& o)
         seen.carrying += plane.area > 0;
         (carried ? seen.loaded : seen.begun) +=
             plane.joint == 1 && plane.history.maximumClosure > most && plane.area > 0;
+        seen.narrow += plane.isBorn() && plane.area == 0 && plane.overlap > 0 &&
+                       plane.closure > 0 && plane.exits != 0 && !plane.isRefused();
         seen.uneven += plane.crushedUnevenly;
         seen.byShear += plane.crushedUnevenly && !wasUneven && plane.crushing().along[0] == 0 &&
                         plane.crushing().along[1] == 0;
@@ -268,8 +280,10 @@ TEST(PairLanes, haveTheBitsOfOnePairAtATime)
     EXPECT_GT(seen.woken, 5);
     EXPECT_GT(seen.carrying, 5000);
     EXPECT_GT(seen.irregular, 100);
-    if (o.forces == ContactOptions::Forces::Potential)
-      expectCrushing(seen);
+    if (o.forces != ContactOptions::Forces::Potential)
+      continue;
+    expectCrushing(seen);
+    EXPECT_GT(seen.narrow, 100);
   }
 }
 

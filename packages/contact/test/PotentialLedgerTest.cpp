@@ -223,4 +223,28 @@ TEST(LedgerOfThePotential, aQuadrilateralThatFoldsLosesNothing)
       EXPECT_LT(fine, 1e-3 * largest);
     }
 }
+TEST(LedgerOfThePotential, whatIsTooNarrowToCarryHardensNoJoint)
+{
+  // Two squares that share a strip of so much between edges over which both can be left, 0.2 deep.
+  const auto after = [](Real width)
+  {
+    PairPlane plane = curvedPlane(1e3, .5);
+    plane.exits = plane.turns = 0xFF;
+    const auto path = [&](Real time)
+    {
+      const FaceNodes below = face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+      FaceNodes above = face({{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}});
+      for (Vec3& x : above.x)
+        x += Vec3{1 - width, 0, .01 - .21 * time};
+      return std::array<FaceNodes, 2>{below, above};
+    };
+    return walked<3>(plane, 100, path);
+  };
+  const PairPlane narrow = after(1e-4), wide = after(.5);
+  EXPECT_TRUE(narrow.isBorn());
+  EXPECT_EQ(narrow.area, 0.0);
+  EXPECT_EQ(norm(narrow.forceOn(1)), 0.0);
+  EXPECT_EQ(narrow.history.maximumClosure, 0.0);
+  EXPECT_NEAR(wide.history.maximumClosure, .2, 1e-12);
+}
 } // namespace coplane

@@ -71,8 +71,10 @@ public:
   /// one of the faces at which its surface turns or another body covers it: the surface goes on
   /// there, over lines of the mesh. Then it is not between two edges at which both bodies end.
   KOKKOS_INLINE_FUNCTION Mask isWithinASurface() const;
-  /// Sideways is the shorter way out, or nearly: chi < 1. Of T = Real only.
+  /// Sideways is the shorter way out, or nearly: chi < 1.
   KOKKOS_FORCEINLINE_FUNCTION const Mask& isStrip() const { return strip_; }
+  /// Sideways is so much shorter that nothing is left of the energy: chi = 0.
+  KOKKOS_FORCEINLINE_FUNCTION const Mask& hasNothing() const { return nothing_; }
   T opposedness{};          ///< phi
   T materialArea = T(1.0);  ///< gamma: area of the faces at birth over area now
   Vec3Of<T> gradient[2][4]; ///< of the energy [N]
@@ -156,16 +158,17 @@ public:
     wayOut = T(1.0);
     alongStrip_ = T(0.0);
     T slope(0.0);
-    if constexpr (widthOf<T> == 1)
-      if (strip_)
-      {
-        const Real width = 1 / (scale_.wayOutTo - scale_.wayOutFrom);
-        const Real ratio = v * v / (s * acrossStrip());
-        const SmoothStep<Real> share((ratio - scale_.wayOutFrom) * width);
-        wayOut = share.value;
-        slope = share.slope * width * ratio;
-        alongStrip_ = -0.5 * stiffness * hard * s * slope;
-      }
+    if constexpr (widthOf<T> != 1)
+      wayOut = choose(nothing_, T(0.0), T(1.0));
+    else if (strip_)
+    {
+      const Real width = 1 / (scale_.wayOutTo - scale_.wayOutFrom);
+      const Real ratio = v * v / (s * acrossStrip());
+      const SmoothStep<Real> share((ratio - scale_.wayOutFrom) * width);
+      wayOut = share.value;
+      slope = share.slope * width * ratio;
+      alongStrip_ = -0.5 * stiffness * hard * s * slope;
+    }
     if constexpr (canFold)
       if (folded_[0].area > 0 || folded_[1].area > 0)
         weighFolded(0.5 * stiffness * hard * s, slope);
@@ -509,20 +512,22 @@ private:
   KOKKOS_FORCEINLINE_FUNCTION void cutPolygon(Owned& q, const Mask& whole);
   KOKKOS_FORCEINLINE_FUNCTION void integratePolygon(const Owned& q, const Mask& whole);
   KOKKOS_FORCEINLINE_FUNCTION void addSide(int owner, const Mask& isThere);
+  /// Whether ways_ are known by edge; segments side by side have the sum of each face.
+  static constexpr bool waysOfEdges = Dim == 3 || branchFree::widthOf<T> == 1;
   /// Where the closure along the border of an edge is added up, in ways_.
   static KOKKOS_FORCEINLINE_FUNCTION int wayOf(int owner)
   {
-    return branchFree::widthOf<T> == 1 ? owner : owner / 4;
+    return waysOfEdges ? owner : owner / 4;
   }
   /// Two borders across from each other, one of each face, bound a strip.
   struct Strip
   {
-    Real facing = 0;  ///< 1 where they face away from each other, 0 from a right angle on
-    Real closure = 0; ///< along both: twice their harmonic mean [m^2]
+    T facing = T(0.0);  ///< 1 where they face away from each other, 0 from a right angle on
+    T closure = T(0.0); ///< along both: twice their harmonic mean [m^2]
   };
   KOKKOS_INLINE_FUNCTION Strip stripBetween(int ownerOf0, int ownerOf1) const;
   /// Minus the cosine between the normals of two borders.
-  KOKKOS_FORCEINLINE_FUNCTION Real facing(int ownerOf0, int ownerOf1) const;
+  KOKKOS_FORCEINLINE_FUNCTION T facing(int ownerOf0, int ownerOf1) const;
   /// Of all strips the fourth root of the sum of the fourth powers: what gets away over the nearer
   /// borders needs no others, so the narrowest strip counts, and of two alike both, smoothly.
   KOKKOS_INLINE_FUNCTION void joinStrips();
@@ -531,9 +536,11 @@ private:
   /// Adds the gradient of what hangs on how borders face each other.
   KOKKOS_INLINE_FUNCTION void addFacing(Vec2 (&rim)[2][4]) const;
   /// Closure along the edges that bound strips; faces that share most of what they have are no
-  /// strip, however deep they lie in each other. Lanes have a bound of it [m^2].
+  /// strip, however deep they lie in each other. Segments side by side have a bound of it [m^2].
   KOKKOS_FORCEINLINE_FUNCTION T acrossStrip() const;
-  /// Whether sideways is the shorter way out. Rare: lanes leave such pairs to T = Real.
+  /// Whether sideways is the shorter way out. Lanes have what is as narrow as to carry nothing, as
+  /// beside each other on a joint that has slid a little; what is between is left to T = Real, and
+  /// so are segments.
   KOKKOS_INLINE_FUNCTION void findStrip(const Mask& whole);
 
   // Joints that are crushed unevenly (ContactPotentialCrushing.hpp).
@@ -606,7 +613,7 @@ private:
   KOKKOS_INLINE_FUNCTION void addBorder(const Owned& q, int k, Real slope, Real& push, Vec2& first,
                                         Vec2 (&rim)[2][4]);
   /// Unit normal of the line of an edge, out of the polygon.
-  KOKKOS_INLINE_FUNCTION Vec2 outwardOf(int owner) const;
+  KOKKOS_INLINE_FUNCTION Vec2Of<T> outwardOf(int owner) const;
   /// A gradient with the motion of an edge at a place on it.
   KOKKOS_INLINE_FUNCTION void pushEdge(int owner, const Vec2& at, const Vec2& slope,
                                        Vec2 (&rim)[2][4]) const;
@@ -649,12 +656,10 @@ private:
   T birth_[2]{}; ///< areas [m^2]; of rings over the circumference now
   Mask bonded_{false};
   EdgesOf<T> edges_;
-  /// Closure along the borders over which each body can be left: of each edge; lanes have the sums
-  /// of each face, by which they ask whether a strip may be near [m^2].
-  T ways_[branchFree::widthOf<T> == 1 ? 8 : 2]{};
-  T strips_{};          ///< closure along the borders of strips [m^2]; not in lanes
-  T coveredSides_[2]{}; ///< number of sides on covered edges of each face
-  T openSides_[2]{};    ///< and on others at which its surface turns
+  T ways_[waysOfEdges ? 8 : 2]{}; ///< closure along the borders over which bodies can be left [m^2]
+  T strips_{};                    ///< closure along the borders of strips [m^2]; if waysOfEdges
+  T coveredSides_[2]{};           ///< number of sides on covered edges of each face
+  T openSides_[2]{};              ///< and on others at which its surface turns
   Vec2Of<T> tilt_, apart_;
   bool inOrder_ = false;
   int pieces_ = 0;
@@ -694,7 +699,7 @@ private:
   static constexpr Real grownAt = 0.2;
   bool growing_ = false;
   Real alongShare_ = 0; ///< what the energy changes with the share of the smaller face [J]
-  Mask strip_{false};
+  Mask strip_{false}, nothing_{false};
   T alongStrip_{}; ///< what the energy changes with the logarithm of the closure along its borders
                    ///< [J]
 };

@@ -338,7 +338,7 @@ KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::integratePolygon(const O
     apex = coplane::choose(q.sides.isThere(k), q.sides.from[k], apex);
   const T atApex = closureIn(q, apex);
   ContactMoments<T> sum;
-  T border[widthOf<T> == 1 ? 8 : 2]{};
+  T border[waysOfEdges ? 8 : 2]{};
   for (int k = 0; k < q.sides.size; ++k)
   {
     const Vec2Of<T>&p = q.sides.from[k], &r = q.sides.to[k];
@@ -369,10 +369,10 @@ KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::integratePolygon(const O
 }
 
 template <int Dim, class T>
-KOKKOS_FORCEINLINE_FUNCTION Real PairPotential<Dim, T>::facing(int ownerOf0, int ownerOf1) const
+KOKKOS_FORCEINLINE_FUNCTION T PairPotential<Dim, T>::facing(int ownerOf0, int ownerOf1) const
 {
   if constexpr (Dim == 2)
-    return 1; // both ends of a segment, or they would not be there both
+    return T(1.0); // both ends of a segment, or they would not be there both
   else
     return -dot(outwardOf(ownerOf0), outwardOf(ownerOf1));
 }
@@ -381,38 +381,42 @@ template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION typename PairPotential<Dim, T>::Strip
 PairPotential<Dim, T>::stripBetween(int ownerOf0, int ownerOf1) const
 {
-  const Real a = ways_[ownerOf0], b = ways_[ownerOf1];
+  using namespace branchFree;
+  const T &a = ways_[ownerOf0], &b = ways_[ownerOf1];
+  const Mask both = a > 0.0 && b > 0.0;
   Strip strip;
-  if (!(a > 0 && b > 0))
+  if (!anyOf(both))
     return strip;
-  const Real cosine = facing(ownerOf0, ownerOf1);
-  strip.facing = cosine > 0 ? cosine * cosine : 0;
-  strip.closure = 4 * a * b / (a + b);
+  const T cosine = positivePart(facing(ownerOf0, ownerOf1)), none(0.0);
+  strip.facing = choose(both, cosine * cosine, none);
+  strip.closure = choose(both, 4.0 * a * b / (a + b), none);
   return strip;
 }
 
 template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::joinStrips()
 {
-  if constexpr (branchFree::widthOf<T> == 1)
+  using namespace branchFree;
+  if constexpr (waysOfEdges)
   {
-    strips_ = 0;
-    Real each[16], most = 0;
+    strips_ = T(0.0);
+    T each[16], most(0.0);
     for (int i = 0; i < 16; ++i)
     {
       const Strip strip = stripBetween(i / 4, 4 + i % 4);
       each[i] = strip.facing * strip.closure;
-      most = branchFree::larger(each[i], most);
+      most = larger(each[i], most);
     }
-    if (!(most > 0))
+    const Mask any = most > 0.0;
+    if (!anyOf(any))
       return;
-    Real sum = 0;
-    for (const Real closure : each)
+    T sum(0.0);
+    for (const T& closure : each)
     {
-      const Real part = closure / most, square = part * part;
+      const T part = choose(any, closure / most, T(0.0)), square = part * part;
       sum += square * square;
     }
-    strips_ = most * std::sqrt(std::sqrt(sum));
+    strips_ = most * squareRoot(squareRoot(sum));
   }
 }
 
@@ -447,7 +451,7 @@ template <int Dim, class T>
 KOKKOS_FORCEINLINE_FUNCTION T PairPotential<Dim, T>::acrossStrip() const
 {
   const T apart = 1.0 - SmoothStep<T>(4.0 * overlap / size_ - 2.0).value;
-  if constexpr (branchFree::widthOf<T> == 1)
+  if constexpr (waysOfEdges)
     return strips_ * apart;
   else // all of one face against all of the other; one border against several would be 1.42 times
        // that
@@ -457,15 +461,20 @@ KOKKOS_FORCEINLINE_FUNCTION T PairPotential<Dim, T>::acrossStrip() const
 template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::findStrip(const Mask& whole)
 {
-  const T& v = moments.volume;
+  const T &v = moments.volume, &s = moments.squares;
   Mask between = !whole && v > 0.0;
-  if constexpr (branchFree::widthOf<T> == 1)
-    between = between && strips_ > 0;
+  if constexpr (waysOfEdges)
+    between = between && strips_ > 0.0;
   else
     between = between && ways_[0] > 0.0 && ways_[1] > 0.0;
-  strip_ = between && v * v < scale_.wayOutTo * moments.squares * acrossStrip();
+  strip_ = between && v * v < scale_.wayOutTo * s * acrossStrip();
+  nothing_ = Mask(false);
+  if (!branchFree::anyOf(strip_))
+    return;
+  if constexpr (waysOfEdges)
+    nothing_ = strip_ && !(v * v / (s * acrossStrip()) > scale_.wayOutFrom);
   if constexpr (branchFree::widthOf<T> != 1)
-    regular = regular && !strip_;
+    regular = regular && !(strip_ && !nothing_);
 }
 
 template <int Dim, class T>

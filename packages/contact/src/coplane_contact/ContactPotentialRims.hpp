@@ -340,11 +340,11 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addFolded(int f, Vec2 (&rim)[
 }
 
 template <int Dim, class T>
-KOKKOS_INLINE_FUNCTION Vec2 PairPotential<Dim, T>::outwardOf(int owner) const
+KOKKOS_INLINE_FUNCTION Vec2Of<T> PairPotential<Dim, T>::outwardOf(int owner) const
 {
   const int f = owner / 4, e = owner % 4;
-  const Vec2 d = shadow[f].p[nodeOfEdge(f, e, 1)] - shadow[f].p[nodeOfEdge(f, e, 0)];
-  return (1 / std::sqrt(dot(d, d))) * Vec2{d.y, -d.x};
+  const Vec2Of<T> d = shadow[f].p[nodeOfEdge(f, e, 1)] - shadow[f].p[nodeOfEdge(f, e, 0)];
+  return (1.0 / branchFree::squareRoot(dot(d, d))) * Vec2Of<T>{d.y, -d.x};
 }
 
 template <int Dim, class T>

@@ -344,7 +344,9 @@ private:
     density.constant = choose(even, perArea - sigma * mean, density.constant);
     density.linear = choose(bonded_, choose(bends_, T(0.0), sigma), density.linear);
     const T energy = choose(bonded_, choose(bends_, bent * m.squares, perArea * m.area), pressed);
-    T normalForce = pair_.differentiate(energy, density);
+    T normalForce(0.0);
+    if (branchFree::anyOf(touching && !pair_.hasNothing()))
+      normalForce = pair_.differentiate(energy, density);
     T normalEnergy = pair_.materialArea * pair_.opposedness * energy;
     if constexpr (width == 1)
       if (bent_.partly && touching)
@@ -571,6 +573,11 @@ private:
       nodal[0][i] = -pair_.gradient[0][i] - weights[0][i] * carried;
     for (int i = 0; i < b_.count; ++i)
       nodal[1][i] = weights[1][i] * carried - pair_.gradient[1][i];
+    if (const Mask& none = pair_.hasNothing(); branchFree::anyOf(none))
+      for (auto& ofFace : nodal) // zeros of one sign, whoever shares the lanes
+        for (Vec3Of<T>& force : ofFace)
+          for (T* const part : {&force.x, &force.y, &force.z})
+            *part = branchFree::choose(none, T(0.0), *part);
     putForces(planes_, touching, nodal, a_, b_, dt_);
   }
 
@@ -675,9 +682,7 @@ private:
     const T hardened =
         1.0 + PenaltyHardening::part * grown * (1.0 + (1.0 - grown) * (14.0 - 16.0 * grown));
     T share = (1.0 + rimStiffening * deep) * shareOfOverlap(a_.count, b_.count);
-    if constexpr (width == 1)
-      if (pair_.isStrip() && share < shareOfStrip)
-        share = shareOfStrip;
+    share = branchFree::choose(pair_.isStrip() && share < shareOfStrip, T(shareOfStrip), share);
     // Faces that have shrunk since they met have more of the material on their area.
     growFromBirth();
     const T shrunk = branchFree::larger(pair_.materialArea, T(1.0));
