@@ -359,4 +359,24 @@ TEST_P(SubcyclingInContact, hasTheSameBitsOnAnyRanks)
   }
   setBackend(before);
 }
+
+TEST_P(SubcyclingInContact, hasTheBitsOfTheStraightRunWhenThePartitionChanges)
+{
+  const Comm comm;
+  Solver straight(crushedCubes(comm), comm), moved(crushedCubes(comm), comm);
+  straight.prepare();
+  moved.prepare();
+  const std::string methods[] = {"scattered", "rcb", "last", "hsfc"};
+  for (int cycle = 1; cycle <= 24; ++cycle)
+  {
+    straight.advance();
+    moved.advance();
+    if (cycle % 3 == 0)
+      moved.repartition(crushedCubes(comm, methods[cycle / 3 % 4]));
+    ASSERT_EQ(moved.stateHash(), straight.stateHash()) << "cycle " << cycle;
+    ASSERT_EQ(moved.subcycling().substeps(), straight.subcycling().substeps());
+  }
+  EXPECT_GT(straight.subcycling().substeps(), 1);
+  EXPECT_GT(straight.contact().counts().carrying, 0);
+}
 } // namespace coplane

@@ -89,7 +89,7 @@ def odd_places():
         "corner_face": ((0, 35.26, 45), (7, 3, 5), (0.1, 0.13)),
         "no_angle_alike": ((23, 41, 13), (-17, 9, 31), (0.21, 0.17)),
     }
-    for step_factor, words, most, mean in ((None, "the usual step", 1e-2, 5e-3), (0.2, "a fourth of the step", 4e-2, 1.5e-3)):
+    for step_factor, words, most, mean in ((None, "the usual step", 5e-3, 2e-3), (0.2, "a fourth of the step", 2e-3, 3e-4)):
         found = {}
         for (place, how), cells, speed in itertools.product(places.items(), ((2, 2), (4, 1), (1, 4), (4, 4)), (0.1, 0.6, 1.3)):
             seen = collide(f"{place}_{cells[0]}{cells[1]}", 3, cells, speed, turn_both(*how), step_factor)
