@@ -70,7 +70,8 @@ struct PairTable
         pair.b.count = pair.a.count;
         for (int i = 0; i < pair.a.count; ++i)
           pair.b.x[i] = pair.a.x[pair.a.count - 1 - i] + (1 - 1e-5 * (p % 1000)) * along;
-        plane.offset = .3;
+        plane.offset = .02;
+        plane.depthLimit = 1;
         plane.exits = plane.turns = 0xFF;
       }
       plane.fit.normalStiffness = 10;

@@ -73,7 +73,7 @@ public:
   KOKKOS_INLINE_FUNCTION Mask isWithinASurface() const;
   /// Sideways is the shorter way out, or nearly: chi < 1.
   KOKKOS_FORCEINLINE_FUNCTION const Mask& isStrip() const { return strip_; }
-  /// Sideways is so much shorter that nothing is left of the energy: chi = 0.
+  /// Sideways is so much shorter that the way out leaves nothing of the energy.
   KOKKOS_FORCEINLINE_FUNCTION const Mask& hasNothing() const { return nothing_; }
   T opposedness{};          ///< phi
   T materialArea = T(1.0);  ///< gamma: area of the faces at birth over area now

@@ -272,8 +272,8 @@ struct alignas(64) Plane
       pairing = shallow ? (growing ? Pairing::ShallowGrowing : Pairing::Shallow)
                         : (growing ? Pairing::Growing : Pairing::Usual);
   }
-  /// Less deep than this a pair may begin with little energy, and grow: within reach of searches,
-  /// which know pairs down to `deepestPair` [m].
+  /// Less deep than this a pair may begin with little energy, and grow: with the usual limit, well
+  /// within the depth down to which searches know pairs [m].
   KOKKOS_INLINE_FUNCTION Real deepestToGrow() const
   {
     return isShallow() ? depthLimit : 1.25 * depthLimit;

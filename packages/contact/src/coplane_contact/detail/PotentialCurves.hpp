@@ -13,8 +13,7 @@ KOKKOS_FORCEINLINE_FUNCTION Real PotentialCycle<Dim, T>::reach(int i) const
   const JointLaw& law = *planes_.law[i];
   const JointState& history = planes_.plane[i]->history;
   const Real volume = branchFree::lane(pair_.moments.volume, i);
-  if (law.curve.straight() || crushes_[i] || history.bonded || !(volume > 0) ||
-      branchFree::lane(pair_.hasNothing(), i))
+  if (law.curve.straight() || crushes_[i] || history.bonded || !(volume > 0))
     return 0;
   const Real known = reached_[i] > history.maximumClosure ? reached_[i] : history.maximumClosure;
   const Real closure = permanents_[i] + branchFree::lane(pair_.moments.squares, i) / volume;
