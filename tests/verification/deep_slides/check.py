@@ -98,4 +98,8 @@ for name, how in (
     case.check(f"punch {name}: least force while it slides over the largest", slid.min() / force.max(), 1, 1 - least)
     remainder = run.history["contact_remainder"][-1] / abs(run.history["external_work"]).max()
     case.check(f"punch {name}: contact remainder over the work", remainder, 0, 2e-3)
+# Pressed so that corners come to lie more than an element deep, a block lets go: the log says so.
+run = case.attempt("punch to 0.7, slid on, fine", *slid_block(ratio=0.7, slide=0.2, friction=0, **FINE))
+force = run.history["touch_normal_force"]
+case.check_equal("punch to 0.7, slid on, fine: has gone through, or there is no warning", force[-1] < 0.3 * force.max(), "go through each other" in run.output)
 case.finish()

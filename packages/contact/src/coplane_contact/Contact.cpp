@@ -314,7 +314,7 @@ const Contact::Tally& Contact::tally() const
                           counts.stick += plane.state == PlaneState::Stick;
                           counts.slip += plane.state == PlaneState::Slip;
                           counts.tooDeep += plane.tooDeep;
-                          counts.released += plane.refusal == Refusal::Deep;
+                          counts.released += plane.isReleased();
                           if (plane.isBorn())
                             mine.energies[plane.joint].add(plane, plane.stored);
                         });

@@ -12,8 +12,9 @@ namespace coplane
 namespace
 {
 // When warn() speaks: at this fraction of the error at which the run stops; at these fractions of
-// the energy in play that contact has lost or gained by the remainder.
-constexpr Real errorToWarn = 0.2, lossToWarn = 0.1, gainToWarn = 0.02;
+// the energy in play that contact has lost or gained by the remainder; when more area has let
+// go than carries, and so much of what has carried: single pairs do wherever bodies are crushed.
+constexpr Real errorToWarn = 0.2, lossToWarn = 0.1, gainToWarn = 0.02, letGoToWarn = 0.1;
 
 std::string now(const Clock& clock)
 {
@@ -166,6 +167,17 @@ void BalanceWatch::warnOfPlanes(const Parts& parts)
                            "softer than their closure curve. Give a larger one where that matters; "
                            "the step gets shorter. First:{}",
                            now(parts.clock), capped.count, capped.first));
+  const LetGo letGo = pairsLetGo(parts);
+  mostCarrying_ = std::max(mostCarrying_, letGo.carrying);
+  if (letGo.area > letGo.carrying && letGo.area > letGoToWarn * mostCarrying_ &&
+      isWorse(letGo.area, 0, warned_.letGo))
+    logWarning("contact lets go",
+               fmt::format("{}: {} pairs of faces within surfaces that touch have come deeper into "
+                           "each other than contact can follow, and carry nothing on {:.2e} m2, "
+                           "while all others carry on {:.2e} m2: bodies may go through each other. "
+                           "Raise the stiffness of the joint. Largest:{}",
+                           now(parts.clock), letGo.count, letGo.area, letGo.carrying,
+                           letGo.largest));
   const std::int64_t tooDeep = parts.contact->counts().tooDeep;
   if (isWorse(Real(tooDeep), 1, warned_.tooDeep))
     logWarning("planes too deep",

@@ -46,6 +46,8 @@ public:
     number(self.warned_.error);
     number(self.warned_.remainder);
     number(self.warned_.tooDeep);
+    number(self.warned_.letGo);
+    number(self.mostCarrying_);
     number(self.warned_.capped);
     number(self.warned_.debris);
     number(self.warned_.lines);
@@ -64,10 +66,11 @@ private:
   /// What was warned of last.
   struct Warned
   {
-    Real error = 0, remainder = 0, tooDeep = 0, capped = 0, debris = 0, lines = 0;
+    Real error = 0, remainder = 0, tooDeep = 0, letGo = 0, capped = 0, debris = 0, lines = 0;
   };
   Warned warned_;
-  Real inPlay_ = 0; ///< energy in play at the last look [J]
+  Real mostCarrying_ = 0; ///< area on which planes have carried at a look, the most so far [m^2]
+  Real inPlay_ = 0;       ///< energy in play at the last look [J]
   /// Kinetic energy of velocities that come of the round-off of coordinates in one step [J].
   Real roundOff_ = 0;
 

@@ -113,7 +113,7 @@ void addDerived(Columns& columns)
   columns.scalar("damage", [](const Record& r) { return r.damage; });
   columns.scalar("remainder", [](const Record& r) { return r.plane.remainder(); });
   columns.integer("inherited", [](const Record& r) { return r.plane.isInherited(); });
-  columns.integer("released", [](const Record& r) { return r.plane.refusal == Refusal::Deep; });
+  columns.integer("released", [](const Record& r) { return r.plane.isReleased(); });
   for (int f = 0; f < 2; ++f)
   {
     const std::string which = f == 0 ? "lower" : "higher";
