@@ -33,7 +33,7 @@ def scenes(number, seed=7):
 
 def measure(program, number):
     os.environ["COPLANE_BIN"] = str(pathlib.Path(program).resolve())
-    held, lost, ended, remainders = 0, 0, 0, []
+    held, lost, warned, false, ended, remainders = 0, 0, 0, 0, 0, []
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         case = Case("slid blocks", __file__)
@@ -43,10 +43,13 @@ def measure(program, number):
             force = run.history["touch_normal_force"]
             half = len(force) // 2  # pressed; then it slides
             held += force[half:].min() > 0.7 * force.max()
+            says = "go through each other" in run.output
             lost += force[-1] < 0.3 * force.max()
+            warned += says and force[-1] < 0.3 * force.max()
+            false += says and force[-1] >= 0.3 * force.max()
             remainders.append(run.history["contact_remainder"][-1] / abs(run.history["external_work"]).max())
     sizes = sorted(abs(r) for r in remainders)
-    print(f"| {number} | {held} | {lost} | {ended} | {sizes[number // 2]:.1e} | {min(remainders):.1e} | {max(remainders):.1e} |")
+    print(f"| {number} | {held} | {lost} | {warned} | {false} | {ended} | {sizes[number // 2]:.1e} | {min(remainders):.1e} | {max(remainders):.1e} |")
 
 
 def main():
@@ -56,7 +59,7 @@ def main():
     arguments.add_argument("--scenes", type=int, default=160)
     options = arguments.parse_args()
     programs = [str(pathlib.Path(p).resolve()) for p in (options.program, options.against) if p]
-    print("| scenes | force stays above 0.7 of the largest | falls below 0.3 | end early | remainder over work, median size | most gained | most lost |\n|---|---|---|---|---|---|---|")
+    print("| scenes | force stays above 0.7 of the largest | falls below 0.3 | of these warned of | warned of that hold | end early | remainder over work, median size | most gained | most lost |\n|---|---|---|---|---|---|---|---|---|")
     for program in programs:
         measure(program, options.scenes)
 

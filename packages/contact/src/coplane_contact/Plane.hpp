@@ -69,10 +69,6 @@ struct ContactOptions
   Real lookAhead = 0;
 };
 
-/// Pairs of the potential are looked for up to this depth, over the thinner element: its force has
-/// no end [-].
-constexpr Real deepestPair = 0.9;
-
 /// Life of a plane: a pair of faces that has not touched yet is none.
 enum class PlaneState : std::uint8_t
 {

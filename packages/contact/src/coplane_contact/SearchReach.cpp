@@ -8,7 +8,7 @@ SearchReach::SearchReach(const ContactOptions& options, Real skin, Real smallest
       turns_(options.forces == ContactOptions::Forces::Potential)
 {
   rules_.cosOpposed = options.cosOpposed;
-  rules_.depthMax = turns_ ? std::max(deepestPair, options.depthMax) : options.depthMax;
+  rules_.depthMax = turns_ ? std::max(deepestOfPotential, options.depthMax) : options.depthMax;
   rules_.sharedNodes = options.sharedNodes;
   rules_.smallestFace = smallestFace;
   rules_.strays = skin;

@@ -58,6 +58,9 @@ private:
   /// A search is forced when the next step takes nodes farther than half a skin along an axis,
   /// which is less than 0.87 skins in space. The step to that search may add an eighth.
   static constexpr Real skinOverMotion = 8;
+  /// With the potential, pairs are candidates up to this depth, as a fraction of the thinner
+  /// element: its force has no end.
+  static constexpr Real deepestOfPotential = 0.9;
   /// By which faces are taken to turn until the next search, at most [rad]: with large skins
   /// 2 skin / size bounds nothing.
   static constexpr Real mostTurning = 0.2;
