@@ -187,7 +187,7 @@ TEST(ElementBlock, bulkViscosityPushesBackAgainstCompressionOnly)
                                 });
     block.update(plus(mesh.x, dt, v), v, dt);
     const Real q = 7850 * rate * (0.06 * soundSpeed(blockSteel) + 1.5 * rate);
-    EXPECT_NEAR(block.viscousPressure()(0), sign < 0 ? q : 0, 1e-6 * q);
+    EXPECT_NEAR(block.viscousPressure(0), sign < 0 ? q : 0, 1e-6 * q);
     // work of the mean of 0 and q over the step
     EXPECT_NEAR(block.energy(0, ElementEnergy::Viscous), sign < 0 ? 0.5 * q * rate * dt : 0,
                 1e-6 * q * rate * dt);

@@ -304,6 +304,7 @@ const Contact::Tally& Contact::tally() const
                         Tally{{}, std::vector<PlaneEnergySums>(rules_.joints.size())},
                         [&](Tally& mine, std::size_t p)
                         {
+                          planes().prefetchAfter(p);
                           const Plane& plane = planes()[p];
                           if (!plane.countedHere)
                             return;

@@ -106,6 +106,7 @@ std::vector<JointSummary> jointSummaries(const Contact& contact, const ConstNode
   const PlaneList& planes = shown.list;
   const auto take = [&](Sums& all, std::size_t p)
   {
+    planes.prefetchAfter(p);
     const Plane& plane = planes[p];
     if (!plane.countedHere || !plane.isBorn())
       return;

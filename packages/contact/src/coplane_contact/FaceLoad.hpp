@@ -1,6 +1,7 @@
 #pragma once
 
 #include <coplane_contact/Plane.hpp>
+#include <coplane_core/Prefetch.hpp>
 
 namespace coplane
 {
@@ -16,6 +17,12 @@ struct FaceLoad
     for (int k = 0; k < 4; ++k)
       force[k] += plane.nodal[side][k];
     stiffness += plane.nodeStiffness;
+  }
+  /// Brings what add() reads into the cache.
+  static KOKKOS_FORCEINLINE_FUNCTION void prefetchFrom(const Plane& plane, int side)
+  {
+    prefetch(&plane.nodal[side]);
+    prefetch(&plane.nodeStiffness);
   }
 };
 } // namespace coplane

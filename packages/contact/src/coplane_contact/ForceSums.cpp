@@ -2,17 +2,6 @@
 
 namespace coplane
 {
-namespace
-{
-/// Brings what FaceLoad::add() reads of a plane into the cache.
-void prefetch(const Plane& plane)
-{
-  const char* line = reinterpret_cast<const char*>(&plane);
-  for (int i = 0; i < 3; ++i)
-    __builtin_prefetch(line + 64 * i);
-}
-} // namespace
-
 void ForceSums::listPlanes(const SlotTable& slots, std::size_t localFaces, std::size_t faces)
 {
   // Planes are visited in the order of their keys, so each face's list is in that order on every
@@ -84,7 +73,7 @@ void ForceSums::add(Plane* const* planes, const Array<Activity>& activity, const
         };
         if (face + ahead < faces)
           for (const std::int32_t entry : loadedOf(face + ahead))
-            prefetch(*planes[entry / 2]);
+            FaceLoad::prefetchFrom(*planes[entry / 2], entry % 2);
         if (loadedCount(face) == 0)
           return;
         FaceLoad& load = *new (&loads(face)) FaceLoad;

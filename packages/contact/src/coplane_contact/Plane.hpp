@@ -163,13 +163,13 @@ struct alignas(64) Plane
   std::uint8_t covered = 0; ///< another body lies on the face there, flush at this edge
   std::uint8_t seams = 0;   ///< the surface goes on there, on another body
   bool crushedUnevenly = false;
-  JointFit fit; ///< stiffnesses of the law for this pair
-
-  Vec3 nodal[2][4] = {}; ///< forces on the nodes of the faces [N]
   /// That carries traction; with the potential as it was when the faces met: tractions and
   /// stiffnesses are per this area (planeNow() shows those of now) [m^2].
   Real area = 0;
   Real overlap = 0; ///< whole overlap of the projections [m^2]
+
+  Vec3 nodal[2][4] = {}; ///< forces on the nodes of the faces [N]
+  JointFit fit;          ///< stiffnesses of the law for this pair
 
   Vec3 normal{};         ///< at the half step
   Vec3 pointOfContact{}; ///< [m]

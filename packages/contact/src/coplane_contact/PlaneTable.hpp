@@ -5,6 +5,7 @@
 #include <coplane_contact/Plane.hpp>
 #include <coplane_contact/Preparation.hpp>
 #include <coplane_core/Backend.hpp>
+#include <coplane_core/Prefetch.hpp>
 
 #include <atomic>
 #include <cstdint>
@@ -39,6 +40,17 @@ public:
   std::size_t size() const { return planes_.size(); }
   Plane& operator[](std::size_t p) const { return *planes_[p]; }
   std::size_t slotOf(std::size_t p) const { return slots_[p]; }
+  /// Brings a plane that will be read soon into the cache, without its forces.
+  void prefetchAfter(std::size_t p) const
+  {
+    constexpr std::size_t ahead = 8;
+    if (p + ahead >= planes_.size())
+      return;
+    const Plane& plane = *planes_[p + ahead];
+    prefetch(&plane.faceId);
+    prefetch(&plane.history);
+    prefetch(&plane.stored);
+  }
 
   void clear();
   void add(std::size_t slot, Plane* plane);

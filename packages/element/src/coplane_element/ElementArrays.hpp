@@ -1,7 +1,9 @@
 #pragma once
 
 #include <coplane_core/Backend.hpp>
+#include <coplane_core/Prefetch.hpp>
 #include <coplane_core/Real.hpp>
+#include <coplane_element/ElementTable.hpp>
 
 namespace coplane
 {
@@ -18,28 +20,45 @@ struct ElementArrays
   Array<Real> mass;            ///< [kg]
   Array<Real> referenceVolume; ///< [m^3]
   Array<Real> referenceLength; ///< V^(1/3), in two dimensions the root of the area [m]
-  Table<Real> cornerMass;      ///< a row per corner, where masses of corners differ [kg]
-  Table<Real> pointMass;       ///< a row per point, full integration [kg]
+  ElementTable cornerMass;      ///< a row per corner, where masses of corners differ [kg]
+  ElementTable pointMass;       ///< a row per point, full integration [kg]
 
   // history
-  Table<Real> stress;                ///< xx, yy, zz, xy, yz, zx: means over the points [Pa]
-  Table<Real> history;               ///< of the law: means over the points
-  Table<Real> tangent;               ///< rows: stiffening, integrity of the law (MaterialPoint)
-  Table<Real> hourglassForce;        ///< on modes [N], and on the hoop slopes of rings [N m]
-  Table<Real> hourglassViscousForce; ///< on modes [N]
-  Table<Real> compression; ///< rows: rate <-tr D> of the last half step [1/s], pressure q [Pa]
-  Table<Real> energies;    ///< ElementEnergy [J]
-  Table<Real> deformation; ///< GreenNaghdi: deformation gradient of each point
-  Table<Real> volumeRatio; ///< NodalPressure: mean over the corners
+  ElementTable stress;                ///< xx, yy, zz, xy, yz, zx: means over the points [Pa]
+  ElementTable history;               ///< of the law: means over the points
+  ElementTable tangent;               ///< rows: stiffening, integrity of the law (MaterialPoint)
+  ElementTable hourglassForce;        ///< on modes [N], and on the hoop slopes of rings [N m]
+  ElementTable hourglassViscousForce; ///< on modes [N]
+  ElementTable compression; ///< rows: rate <-tr D> of the last half step [1/s], pressure q [Pa]
+  ElementTable energies;    ///< ElementEnergy [J]
+  ElementTable deformation; ///< GreenNaghdi: deformation gradient of each point
+  ElementTable volumeRatio; ///< NodalPressure: mean over the corners
   // full integration: rows of all points one after another
-  Table<Real> pointStress, pointHistory;
-  Table<Real> pointEnergy; ///< internal and viscous, per reference volume [J/m^3]
+  ElementTable pointStress, pointHistory;
+  ElementTable pointEnergy; ///< internal and viscous, per reference volume [J/m^3]
 
   // of the last update
   CornerVectors cornerForce; ///< [N]
   Array<Real> stableStep;    ///< [s]
   Array<Real> volume;        ///< [m^3]
-  Table<Real> volumeChanges; ///< see ElementBlock::findVolumeChanges() [m^3]
+  ElementTable volumeChanges; ///< see ElementBlock::findVolumeChanges() [m^3]
+
+  /// Brings what a kernel reads and writes of a batch into the cache. These are more stretches of
+  /// memory than processors follow by themselves.
+  KOKKOS_FORCEINLINE_FUNCTION void prefetchBatch(std::size_t batch) const
+  {
+    const std::size_t first = batch * laneCount;
+    prefetch(&connectivity(first, 0), connectivity.extent(1) * laneCount);
+    for (const Array<Real>* const numbers :
+         {&mass, &referenceVolume, &referenceLength, &stableStep, &volume})
+      prefetch(&(*numbers)(first), laneCount);
+    for (const ElementTable* const table :
+         {&cornerMass, &pointMass, &stress, &history, &tangent, &hourglassForce,
+          &hourglassViscousForce, &compression, &energies, &deformation, &volumeRatio,
+          &pointStress, &pointHistory, &pointEnergy})
+      prefetch(table->batch(batch), table->extent(0) * laneCount);
+    prefetch(&cornerForce(first, 0, 0), 3 * cornerForce.extent(1) * laneCount);
+  }
 
   /// Calls f(of a, of b) for all arrays of two blocks of the same kind but the connectivity.
   template <class F>

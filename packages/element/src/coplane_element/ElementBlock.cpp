@@ -112,8 +112,8 @@ struct VolumeChanges
   [[gnu::noinline]] void operator()(const int batch) const
   {
     const int first = batch * laneCount;
-    const Field x = Shape::gather(data, data.x, first);
-    const Field v = Shape::gather(data, data.v, first);
+    Field x, v;
+    Shape::gather(data, first, x, v);
     Field middle;
     Shape::findMiddle(x, v, data.dt, middle);
     const typename Shape::Gradient g = Shape::gradientAt(middle);
@@ -153,7 +153,7 @@ auto withType(ElementType type, F&& f)
 ElementArrays arraysOf(ElementType type, const ElementOptions& options,
                        const HourglassOptions& hourglass, int columns, int historyRows)
 {
-  using Values = Table<Real>;
+  using Values = ElementTable;
   const int nodes = topology(type).nodes;
   const int dim = topology(type).dimension;
   const bool full = isFullyIntegrated(options.form);
@@ -239,14 +239,14 @@ void ElementBlock::initialise(const ConstNodeVectors& x, Real time)
     for (int c = 0; c < nodes; ++c)
       centres_[std::size_t(e)] += (1.0 / nodes) * at(x, arrays_.connectivity(e, c));
   }
-  forEachState([](const char*, int, const Values& values) { Kokkos::deep_copy(values, 0.0); });
-  Kokkos::deep_copy(arrays_.tangent, 1.0);
-  Kokkos::deep_copy(alive_, 1.0);
+  forEachState([](const char*, int, const Values& values) { values.fill(0); });
+  arrays_.tangent.fill(1);
+  alive_.fill(1);
   eroded_.clear();
   Kokkos::deep_copy(arrays_.cornerForce, 0.0);
   for (int e = 0; e < int(arrays_.mass.extent(0)); ++e)
     setInitialStress(e, {});
-  Kokkos::deep_copy(arrays_.volumeRatio, 1.0);
+  arrays_.volumeRatio.fill(1);
   const int dim = topology(type_).dimension;
   for (int k = 0; k < int(arrays_.deformation.extent(0)); ++k)
     if (k % (dim * dim) % (dim + 1) == 0)
@@ -424,7 +424,7 @@ void ElementBlock::restore(const Eroded& eroded)
 namespace
 {
 // One element of an array into a place of another one of the same shape.
-void copyColumn(const Table<Real>& from, int source, const Table<Real>& to, int place)
+void copyColumn(const ElementTable& from, int source, const ElementTable& to, int place)
 {
   for (std::size_t row = 0; row < from.extent(0); ++row)
     to(row, place) = from(row, source);
@@ -451,7 +451,7 @@ ElementBlock ElementBlock::part(const std::vector<int>& elements) const
     for (std::size_t c = 0; c < arrays_.connectivity.extent(1); ++c)
       connectivity.push_back(arrays_.connectivity(e, c));
   ElementBlock made(type_, law_, hourglass_, viscosity_, connectivity, options_);
-  Kokkos::deep_copy(made.alive_, 1.0);
+  made.alive_.fill(1);
   give(elements, made);
   return made;
 }
@@ -505,12 +505,6 @@ int ElementBlock::historyRow(const std::string& name) const
 {
   const auto found = std::find(historyNames_.begin(), historyNames_.end(), name);
   return found == historyNames_.end() ? -1 : int(found - historyNames_.begin());
-}
-
-ConstArray<Real> ElementBlock::viscousPressure() const
-{
-  return ConstArray<Real>(arrays_.compression.data() + arrays_.compression.extent(1),
-                          arrays_.compression.extent(1));
 }
 
 Real ElementBlock::smallestStableStep() const

@@ -26,8 +26,8 @@ class ElementBlock
 public:
   /// One number per component (row) and element (column). Rows are padded to a multiple of
   /// laneCount; only the first count() columns mean something.
-  using Values = Table<Real>;
-  using ConstValues = ConstTable<Real>;
+  using Values = ElementTable;
+  using ConstValues = ConstElementTable;
   using ConstCornerVectors = Kokkos::View<const Real** [3], Kokkos::LayoutRight, Kokkos::HostSpace>;
 
   /// @param connectivity local node indices, topology(type).nodes per element
@@ -48,7 +48,7 @@ public:
   /// volumes in its middle, whose sums around a node give its dilatation, sum / sum.
   void findVolumeChanges(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt);
   /// Two rows, see there [m^3].
-  ConstTable<Real> volumeChanges() const { return arrays_.volumeChanges; }
+  ConstValues volumeChanges() const { return arrays_.volumeChanges; }
 
   /// Advances stress, history and energies over dt, and computes the forces, volumes and stable
   /// steps at x^(n+1). With dt = 0 nothing advances: it gives the forces that belong to the present
@@ -108,7 +108,8 @@ public:
   Real history(int row, int element) const { return arrays_.history(row, element); }
   const std::vector<std::string>& historyVariables() const { return historyNames_; }
   int historyRow(const std::string& name) const; ///< -1 when the law has no such variable
-  ConstArray<Real> viscousPressure() const;      ///< q of the last update, not negative [Pa]
+  /// q of the last update, not negative [Pa].
+  Real viscousPressure(int element) const { return arrays_.compression(1, element); }
   ConstValues energies() const { return arrays_.energies; }
   Real energy(int element, ElementEnergy kind) const
   {

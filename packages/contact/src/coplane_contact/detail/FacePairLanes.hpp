@@ -6,6 +6,7 @@
 #include <coplane_contact/detail/PassedOn.hpp>
 #include <coplane_contact/detail/PotentialKernel.hpp>
 #include <coplane_core/Backend.hpp>
+#include <coplane_core/Prefetch.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -219,16 +220,9 @@ private:
     if (i + planesAhead < count)
       if (const int p = near[i + planesAhead];
           !pairs_.carriesNothing(p) && pairs_.planes[p] != nullptr)
-        prefetch(*pairs_.planes[p]);
+        prefetch(pairs_.planes[p]);
     if (i + facesAhead < count)
-      prefetch(face(near[i + facesAhead], 1));
-  }
-  template <class Record>
-  static void prefetch(const Record& record)
-  {
-    const char* line = reinterpret_cast<const char*>(&record);
-    for (std::size_t at = 0; at < sizeof(Record); at += 64)
-      __builtin_prefetch(line + at);
+      prefetch(&face(near[i + facesAhead], 1));
   }
 
   const HalfStepFace& face(int p, int side) const { return faces_[slots_[p].face[side]]; }

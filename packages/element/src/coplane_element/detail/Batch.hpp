@@ -9,6 +9,14 @@ namespace coplane
 // A kernel treats laneCount elements side by side, a batch: columns first, first + 1, ... of the
 // arrays of a block.
 
+/// @param nodes of an element: the more, the longer a batch takes
+KOKKOS_FORCEINLINE_FUNCTION void prefetchAhead(const ElementKernelData& data, int batch, int nodes)
+{
+  const int ahead = batch + 16 / nodes;
+  if (ahead < data.batches)
+    data.prefetchBatch(std::size_t(ahead));
+}
+
 KOKKOS_FORCEINLINE_FUNCTION Lanes load(const Real* from)
 {
   return Lanes(from, stdx::element_aligned);
@@ -23,7 +31,7 @@ template <int dim>
 constexpr int tensorRows = dim == 3 ? 6 : 4;
 
 template <int dim>
-KOKKOS_FORCEINLINE_FUNCTION SymTensorOf<Lanes> loadTensor(const Table<Real>& table, int row,
+KOKKOS_FORCEINLINE_FUNCTION SymTensorOf<Lanes> loadTensor(const ElementTable& table, int row,
                                                           int first)
 {
   const auto at = [&](int k) { return load(&table(row + k, first)); };
@@ -34,7 +42,7 @@ KOKKOS_FORCEINLINE_FUNCTION SymTensorOf<Lanes> loadTensor(const Table<Real>& tab
 }
 
 template <int dim>
-KOKKOS_FORCEINLINE_FUNCTION void storeTensor(const SymTensorOf<Lanes>& s, const Table<Real>& table,
+KOKKOS_FORCEINLINE_FUNCTION void storeTensor(const SymTensorOf<Lanes>& s, const ElementTable& table,
                                              int row, int first)
 {
   store(s.xx, &table(row + 0, first));

@@ -34,8 +34,9 @@ struct ElementKernel
   [[gnu::noinline]] void operator()(const int batch) const
   {
     const int first = batch * laneCount;
-    const Field x = Shape::gather(data, data.x, first);
-    const Field v = Shape::gather(data, data.v, first);
+    prefetchAhead(data, batch, nodes);
+    Field x, v;
+    Shape::gather(data, first, x, v);
     HourglassForces hourglass = Hourglass{data, law}.loadForces(first);
     SymTensorOf<Lanes> stress = loadTensor<dim>(data.stress, 0, first);
     const Gradient gradient = Shape::gradientAt(x);

@@ -39,32 +39,27 @@ struct ElementShape
     Lanes volume;                             ///< [m^3]
   };
 
-  /// Corner 0 is taken off first: a far origin or a common speed then costs no digits.
-  static KOKKOS_FORCEINLINE_FUNCTION Field gather(const ElementKernelData& data,
-                                                  const ConstNodeVectors& nodal, int first)
+  /// Positions and velocities of the nodes as fields.
+  static KOKKOS_FORCEINLINE_FUNCTION void gather(const ElementKernelData& data, int first, Field& x,
+                                                 Field& v)
   {
-    Field field;
+    // By corners, for the places of their nodes to stay in registers.
     const int* const node = &data.connectivity(first, 0);
-    for (int i = 0; i < dim; ++i)
+    const Real *const positions = data.x.data(), *const velocities = data.v.data();
+    Lanes atCorners[2][dim][nodes];
+    for (int c = 0; c < nodes; ++c)
     {
-      const auto corner = [&](int c)
-      { return Lanes([&](auto lane) { return nodal(node[int(lane) * nodes + c], i); }); };
-      const Lanes origin = corner(0);
-      Lanes u[nodes];
-      u[0] = Lanes(0.0);
-#pragma GCC unroll 8
-      for (int c = 1; c < nodes; ++c)
-        u[c] = corner(c) - origin;
-      M::fromCorners(u, field.modes[i]);
-      if (revolved && i == 0)
+      std::size_t place[laneCount];
+      for (int lane = 0; lane < laneCount; ++lane)
+        place[lane] = std::size_t(3) * std::size_t(node[lane * nodes + c]);
+      for (int i = 0; i < dim; ++i)
       {
-        Lanes sum = u[1];
-        for (int c = 2; c < nodes; ++c)
-          sum += u[c];
-        field.mean = origin + Lanes(1.0 / nodes) * sum;
+        atCorners[0][i][c] = Lanes([&](auto lane) { return positions[place[int(lane)] + i]; });
+        atCorners[1][i][c] = Lanes([&](auto lane) { return velocities[place[int(lane)] + i]; });
       }
     }
-    return field;
+    fieldOf(atCorners[0], x);
+    fieldOf(atCorners[1], v);
   }
 
   /// Positions in the middle of the step that ended at x with the velocities v.
@@ -115,6 +110,30 @@ struct ElementShape
   static KOKKOS_FORCEINLINE_FUNCTION Lanes modeOf(const Lanes (&operators)[gradients], int k)
   {
     return k < gradients ? operators[k < gradients ? k : 0] : Lanes(0.0);
+  }
+
+private:
+  /// Corner 0 is taken off first: a far origin or a common speed then costs no digits.
+  static KOKKOS_FORCEINLINE_FUNCTION void fieldOf(const Lanes (&atCorners)[dim][nodes],
+                                                  Field& field)
+  {
+    for (int i = 0; i < dim; ++i)
+    {
+      const Lanes(&corner)[nodes] = atCorners[i];
+      Lanes u[nodes];
+      u[0] = Lanes(0.0);
+#pragma GCC unroll 8
+      for (int c = 1; c < nodes; ++c)
+        u[c] = corner[c] - corner[0];
+      M::fromCorners(u, field.modes[i]);
+      if (revolved && i == 0)
+      {
+        Lanes sum = u[1];
+        for (int c = 2; c < nodes; ++c)
+          sum += u[c];
+        field.mean = corner[0] + Lanes(1.0 / nodes) * sum;
+      }
+    }
   }
 };
 } // namespace coplane

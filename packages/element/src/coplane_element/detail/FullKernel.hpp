@@ -36,8 +36,9 @@ struct FullKernel
   [[gnu::noinline]] void operator()(const int batch) const
   {
     const int first = batch * laneCount;
-    const Field x = Shape::gather(data, data.x, first);
-    const Field v = Shape::gather(data, data.v, first);
+    prefetchAhead(data, batch, nodes);
+    Field x, v;
+    Shape::gather(data, first, x, v);
     const Gradient gradient = Shape::gradientAt(x);
     const Lanes inverseVolume = Lanes(1.0) / gradient.volume;
     const Lanes rho = load(&data.mass(first)) * inverseVolume;

@@ -75,8 +75,8 @@ KOKKOS_FORCEINLINE_FUNCTION void turnByOtherRate(const ElementKernelData& data, 
 
 /// The law at point q, whose history and stress are rows of `history` and `stress`.
 template <int dim, class Law>
-KOKKOS_FORCEINLINE_FUNCTION void advancePoint(const Law& law, const Table<Real>& history,
-                                              const Table<Real>& stress, int q, int first,
+KOKKOS_FORCEINLINE_FUNCTION void advancePoint(const Law& law, const ElementTable& history,
+                                              const ElementTable& stress, int q, int first,
                                               MaterialPoint<Lanes>& point)
 {
   const int firstRow = law.historyCount * q;
