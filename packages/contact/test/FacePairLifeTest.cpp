@@ -307,15 +307,6 @@ TEST(RefusalOfThePotential, whatBeginsWithLittleIsNotDeepWhereItsSurfaceGoesOn)
   EXPECT_TRUE(afterItCameAside(.01, .06, 0, Pairing::Stiff).isRefused());
 }
 
-TEST(RefusalOfThePotential, whatIsTooDeepWithinASurfaceHasLetGo)
-{
-  EXPECT_EQ(afterItCameAside(.01, .13, 0).refusal, Refusal::LetGo);
-  EXPECT_EQ(afterItCameAside(.01, .13, 0xFF).refusal, Refusal::Deep);
-  EXPECT_EQ(afterItCameAside(.01, .12, 0).refusal, Refusal::None);
-  EXPECT_EQ(afterItCameAside(.01, .13, 0, Pairing::Stiff).refusal, Refusal::Deep);
-  EXPECT_TRUE(afterItCameAside(.01, .13, 0).isReleased());
-}
-
 TEST(RefusalOfThePotential, whatGrowsStaysShallow)
 {
   EXPECT_EQ(afterItCameAside(.01, .06, 0).pairing, Pairing::Growing);

@@ -93,7 +93,6 @@ enum class Refusal : std::uint8_t
 {
   None,
   Deep,  ///< came into overlap deep inside: did not meet at the surface
-  LetGo, ///< the same within a surface, where it should take over: too deep for that
   Hidden ///< came into overlap behind a face on which another body lies
 };
 
@@ -220,10 +219,7 @@ struct alignas(64) Plane
   KOKKOS_INLINE_FUNCTION bool isNew() const { return sighting == Sighting::New; }
   KOKKOS_INLINE_FUNCTION bool isRefused() const { return refusal != Refusal::None; }
   /// Came into overlap deep, and carries nothing until its faces part.
-  KOKKOS_INLINE_FUNCTION bool isReleased() const
-  {
-    return refusal == Refusal::Deep || refusal == Refusal::LetGo;
-  }
+  KOKKOS_INLINE_FUNCTION bool isReleased() const { return refusal == Refusal::Deep; }
   /// A gap of the mesh, or an overlap, negative, becomes that at which the joint is just closed
   /// [m].
   KOKKOS_INLINE_FUNCTION void absorb(Real gapOfMesh)

@@ -1,7 +1,9 @@
+#include <coplane_contact/LostContact.hpp>
 #include <coplane_core/ExactSum.hpp>
 #include <coplane_core/Log.hpp>
 #include <coplane_dynamics/BalanceWatch.hpp>
 #include <coplane_dynamics/WorstEntities.hpp>
+#include <coplane_mesh/FaceName.hpp>
 
 #include <algorithm>
 #include <array>
@@ -12,9 +14,19 @@ namespace coplane
 namespace
 {
 // When warn() speaks: at this fraction of the error at which the run stops; at these fractions of
-// the energy in play that contact has lost or gained by the remainder; when more area has let
-// go than carries, and so much of what has carried: single pairs do wherever bodies are crushed.
-constexpr Real errorToWarn = 0.2, lossToWarn = 0.1, gainToWarn = 0.02, letGoToWarn = 0.1;
+// the energy in play that contact has lost or gained by the remainder.
+constexpr Real errorToWarn = 0.2, lossToWarn = 0.1, gainToWarn = 0.02;
+/// Of the most area that has carried: less that is lost does not end a run. Fragments may be.
+constexpr Real lostToStop = 0.1;
+
+/// Whether to warn: every warning waits until things are twice as bad as at the last of its kind.
+bool isWorse(Real value, Real first, Real& warned)
+{
+  if (!(value >= std::max(first, 2 * warned)))
+    return false;
+  warned = value;
+  return true;
+}
 
 std::string now(const Clock& clock)
 {
@@ -38,6 +50,8 @@ void BalanceWatch::open(const EnergyBalance& initial, const Parts& parts)
   const Real speed = roundOff * farthest[0] / parts.clock.nextStep;
   roundOff_ = ExactSum::overRanks(mass, parts.comm)[0] * speed * speed;
   inPlay_ = inPlayOf(initial);
+  if (parts.contact)
+    accepted_ = lostContact(*parts.contact, parts.state.x).lost;
 }
 
 /// Least gain that ends the run, or that warn() has to tell of.
@@ -103,17 +117,40 @@ std::string BalanceWatch::broken(const EnergyBalance& balance, const Parts& part
   return "";
 }
 
-namespace
+std::string BalanceWatch::goesThrough(const Parts& parts)
 {
-/// Whether to warn: every warning waits until things are twice as bad as at the last of its kind.
-bool isWorse(Real value, Real first, Real& warned)
-{
-  if (!(value >= std::max(first, 2 * warned)))
-    return false;
-  warned = value;
-  return true;
+  const LostContact found = lostContact(*parts.contact, parts.state.x);
+  mostCarrying_ = std::max(mostCarrying_, found.carrying);
+  if (accepted_ < 0)
+    accepted_ = found.lost;
+  const Real lost = found.lost - accepted_;
+  const auto nameOf = [&](int side)
+  { return parts.model.blocks[std::size_t(found.block[side])].name; };
+  const auto told = [&]
+  {
+    return fmt::format(
+        "{}: {} faces lie in other bodies, deeper than the elements there are thick, and carry "
+        "nothing, on {:.2e} m2, while contact carries on {:.2e} m2. Deepest: {} of block '{}', "
+        "{:.3g} m in block '{}' behind {}.",
+        now(parts.clock), found.faces, lost, found.carrying, faceName(found.faceId[0]), nameOf(0),
+        found.depth, nameOf(1), faceName(found.faceId[1]));
+  };
+  constexpr const char* advice = "Where soft bodies are pressed together deeply, raise "
+                                 "joints.<name>.stiffness_fraction or give the joint a stiffness; "
+                                 "where bodies are fast, refine the mesh or use materials that "
+                                 "yield or break.";
+  const bool most = lost > found.carrying && lost > lostToStop * mostCarrying_;
+  const bool stop = most && lastLook_ > 0 && parts.model.stopWhereContactIsLost;
+  lastLook_ = most ? 1 : 0;
+  if (stop)
+    return fmt::format(
+        "{} Bodies go through each other.\n{} contact.lost_contact: warn goes on all "
+        "the same.",
+        told(), advice);
+  if (lost > 0 && isWorse(lost, 0, warned_.lost))
+    logWarning("contact is lost", fmt::format("{} {}", told(), advice));
+  return "";
 }
-} // namespace
 
 void BalanceWatch::warn(const EnergyBalance& balance, const Parts& parts)
 {
@@ -167,17 +204,6 @@ void BalanceWatch::warnOfPlanes(const Parts& parts)
                            "softer than their closure curve. Give a larger one where that matters; "
                            "the step gets shorter. First:{}",
                            now(parts.clock), capped.count, capped.first));
-  const LetGo letGo = pairsLetGo(parts);
-  mostCarrying_ = std::max(mostCarrying_, letGo.carrying);
-  if (letGo.area > letGo.carrying && letGo.area > letGoToWarn * mostCarrying_ &&
-      isWorse(letGo.area, 0, warned_.letGo))
-    logWarning("contact lets go",
-               fmt::format("{}: {} pairs of faces within surfaces that touch have come deeper into "
-                           "each other than contact can follow, and carry nothing on {:.2e} m2, "
-                           "while all others carry on {:.2e} m2: bodies may go through each other. "
-                           "Raise the stiffness of the joint. Largest:{}",
-                           now(parts.clock), letGo.count, letGo.area, letGo.carrying,
-                           letGo.largest));
   const std::int64_t tooDeep = parts.contact->counts().tooDeep;
   if (isWorse(Real(tooDeep), 1, warned_.tooDeep))
     logWarning("planes too deep",

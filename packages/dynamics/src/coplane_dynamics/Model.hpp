@@ -80,6 +80,7 @@ struct Model
   std::vector<int> rigidBodyOfNode;
   BulkViscosity viscosity;
   bool contactEnabled = true;
+  bool stopWhereContactIsLost = true; ///< when bodies go through each other
   ContactOptions contact;
   ContactRules contactRules;
   bool axisymmetric() const { return conditions.axisymmetric; }

@@ -261,6 +261,8 @@ bool Solver::erode(Real dt)
                           state_.v, dt, subcycling_.lastStep(dt));
   leaveWithoutElements(dead, contact_ ? &contact_->localFaces() : nullptr);
   takeMassAlong(leaving); // planes have ended with the velocities that there were
+  if (facesChange)
+    watch_.acceptOverlaps();
   renewDebris();
   return true;
 }
@@ -609,6 +611,9 @@ void Solver::judge(Observer& observer)
   const bool due = clock_.cycle % energyCheckEvery == 0 || isOver();
   if (!due && !contactMayHaveGained_)
     return;
+  if (contact_ && clock_.cycle % energyCheckEvery == 0)
+    if (const std::string through = watch_.goesThrough(parts()); !through.empty())
+      failAfter(observer, computationFailed(through));
   const EnergyBalance balance = energy();
   const bool gained = contact_ && watch_.hasGained(balance, parts());
   if (!due && !gained)

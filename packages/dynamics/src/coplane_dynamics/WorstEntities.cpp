@@ -80,31 +80,6 @@ std::string deepestPlanes(const Parts& parts)
   return text;
 }
 
-LetGo pairsLetGo(const Parts& parts)
-{
-  std::vector<Entry> pairs;
-  std::vector<ExactSum> areas(2);
-  for (std::size_t p = 0; p < parts.contact->planes().size(); ++p)
-  {
-    const Plane& plane = parts.contact->planes()[p];
-    if (!plane.countedHere)
-      continue;
-    areas[0].add(plane.area);
-    if (plane.refusal != Refusal::LetGo)
-      continue;
-    areas[1].add(plane.overlap);
-    pairs.push_back({plane.overlap, plane.overlap, plane.faceId[0], plane.faceId[1]});
-  }
-  LetGo found;
-  found.count = parts.comm.sum(std::int64_t(pairs.size()));
-  const std::vector<Real> totals = ExactSum::overRanks(areas, parts.comm);
-  found.carrying = totals[0];
-  found.area = totals[1];
-  for (const Entry& e : worst(pairs, parts.comm))
-    found.largest += fmt::format("\n  {}: {:.3e} m2", pairName(e), e.value);
-  return found;
-}
-
 std::string worstEntities(const Parts& parts)
 {
   std::vector<Entry> elements;

@@ -21,14 +21,4 @@ struct CappedPlanes
   std::string first;      ///< a line for each of the farthest closed
 };
 CappedPlanes cappedPlanes(const Parts& parts); ///< collective; with contact only
-
-/// Pairs that have let go within a surface: too deep to take over from those beside them.
-struct LetGo
-{
-  std::int64_t count = 0; ///< over all ranks
-  Real area = 0;          ///< that their faces have in common [m^2]
-  Real carrying = 0;      ///< on which all planes carry [m^2]
-  std::string largest;    ///< a line for each of those with most in common
-};
-LetGo pairsLetGo(const Parts& parts); ///< collective; with contact only
 } // namespace coplane

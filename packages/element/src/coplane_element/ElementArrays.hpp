@@ -20,8 +20,8 @@ struct ElementArrays
   Array<Real> mass;            ///< [kg]
   Array<Real> referenceVolume; ///< [m^3]
   Array<Real> referenceLength; ///< V^(1/3), in two dimensions the root of the area [m]
-  ElementTable cornerMass;      ///< a row per corner, where masses of corners differ [kg]
-  ElementTable pointMass;       ///< a row per point, full integration [kg]
+  ElementTable cornerMass;     ///< a row per corner, where masses of corners differ [kg]
+  ElementTable pointMass;      ///< a row per point, full integration [kg]
 
   // history
   ElementTable stress;                ///< xx, yy, zz, xy, yz, zx: means over the points [Pa]
@@ -38,9 +38,9 @@ struct ElementArrays
   ElementTable pointEnergy; ///< internal and viscous, per reference volume [J/m^3]
 
   // of the last update
-  CornerVectors cornerForce; ///< [N]
-  Array<Real> stableStep;    ///< [s]
-  Array<Real> volume;        ///< [m^3]
+  CornerVectors cornerForce;  ///< [N]
+  Array<Real> stableStep;     ///< [s]
+  Array<Real> volume;         ///< [m^3]
   ElementTable volumeChanges; ///< see ElementBlock::findVolumeChanges() [m^3]
 
   /// Brings what a kernel reads and writes of a batch into the cache. These are more stretches of
@@ -54,8 +54,8 @@ struct ElementArrays
       prefetch(&(*numbers)(first), laneCount);
     for (const ElementTable* const table :
          {&cornerMass, &pointMass, &stress, &history, &tangent, &hourglassForce,
-          &hourglassViscousForce, &compression, &energies, &deformation, &volumeRatio,
-          &pointStress, &pointHistory, &pointEnergy})
+          &hourglassViscousForce, &compression, &energies, &deformation, &volumeRatio, &pointStress,
+          &pointHistory, &pointEnergy})
       prefetch(table->batch(batch), table->extent(0) * laneCount);
     prefetch(&cornerForce(first, 0, 0), 3 * cornerForce.extent(1) * laneCount);
   }

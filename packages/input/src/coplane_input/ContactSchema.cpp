@@ -156,6 +156,11 @@ Key contactKeys()
                      .means("bodies that lie in each other at the start, by more than a thousandth "
                             "of an element and not in a declared joint: an error, or left as they "
                             "are, without force until they press deeper"),
+                 text("lost_contact", &ContactCard::lostContact)
+                     .oneOf({"stop", "warn"})
+                     .like("warn")
+                     .means("when bodies go through each other: more of their faces lies deeper in "
+                            "each other than contact reaches than carries"),
                  text("debris", &ContactCard::debris)
                      .oneOf({"none", "points"})
                      .like("points")

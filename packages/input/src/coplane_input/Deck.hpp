@@ -107,6 +107,7 @@ struct ContactCard
   bool inherit = true;
   std::string shareNode = "skip";       ///< skip | allow
   std::string initialOverlap = "error"; ///< error | allow
+  std::string lostContact = "stop";     ///< stop | warn
   std::string debris = "none";          ///< none | points
   /// Defaults of cosOpposed [-]. With the potential needles and crossing edges of 10 degrees come
   /// into contact; along a common normal forces would jump as pairs of such faces come and go.

@@ -73,6 +73,7 @@ Model buildModel(const Deck& deck, const MeshSlice& slice, RankMesh part, const 
   model.lines = linesOf(deck);
   model.viscosity = {deck.viscosityLinear, deck.viscosityQuadratic};
   model.contactEnabled = deck.contact.enabled;
+  model.stopWhereContactIsLost = deck.contact.lostContact == "stop";
   model.contact = optionsOf(deck);
   if (deck.geometry == "axisymmetric")
   {

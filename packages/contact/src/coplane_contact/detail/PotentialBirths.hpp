@@ -115,22 +115,17 @@ KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::refuse(Plane& plane, in
     depth = -leastGaps_[i];
   if (!(depth > start))
     return;
-  if (plane.refusal == Refusal::LetGo)
-    return;
   const bool isNews = mayGrow(plane);
   plane.refusal = Refusal::Deep;
   // What begins with little of its area, or hardly opposed, begins with little energy, however
   // deep it lies. Where the surface goes on it has come from beside, or rolled on.
   if constexpr (width == 1)
-    if (comesFromTheSide && isNews && beginsLittle() && pair_.isWithinASurface())
+    if (comesFromTheSide && isNews && !crushes_[i] && deepest_ < plane.deepestToGrow() &&
+        beginsLittle() && pair_.isWithinASurface())
     {
-      plane.refusal = Refusal::LetGo;
-      if (!crushes_[i] && deepest_ < plane.deepestToGrow())
-      {
-        plane.refusal = Refusal::None;
-        plane.pairAs(plane.isShallow(), true);
-        pair_.growIn();
-      }
+      plane.refusal = Refusal::None;
+      plane.pairAs(plane.isShallow(), true);
+      pair_.growIn();
     }
 }
 
