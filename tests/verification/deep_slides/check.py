@@ -98,8 +98,14 @@ for name, how in (
     case.check(f"punch {name}: least force while it slides over the largest", slid.min() / force.max(), 1, 1 - least)
     remainder = run.history["contact_remainder"][-1] / abs(run.history["external_work"]).max()
     case.check(f"punch {name}: contact remainder over the work", remainder, 0, 2e-3)
-# Pressed so that corners come to lie more than an element deep, a block lets go: the log says so.
-run = case.attempt("punch to 0.7, slid on, fine", *slid_block(ratio=0.7, slide=0.2, friction=0, **FINE))
+# Pressed so that corners come to lie more than an element deep, a block goes through: that ends the run, or the log tells of it.
+mesh, deck = slid_block(ratio=0.7, slide=0.2, friction=0, **FINE)
+stopped = case.attempt("punch to 0.7, slid on, fine", mesh, deck)
+deck["contact"]["lost_contact"] = "warn"
+run = case.attempt("punch to 0.7, slid on, fine, warned of", mesh, deck)
 force = run.history["touch_normal_force"]
-case.check_equal("punch to 0.7, slid on, fine: has gone through, or there is no warning", force[-1] < 0.3 * force.max(), "go through each other" in run.output)
+gone = force[-1] < 0.3 * force.max()
+case.check_equal("punch to 0.7, slid on, fine: ends with code 6 if it goes through", stopped.code, 6 if gone else 0)
+case.check_equal("punch to 0.7, slid on, fine: told to go on, it does", run.code, 0)
+case.check_equal("punch to 0.7, slid on, fine: and says that it goes through", "go through each other" in run.output, gone)
 case.finish()

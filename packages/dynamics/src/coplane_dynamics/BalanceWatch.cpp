@@ -18,6 +18,8 @@ namespace
 constexpr Real errorToWarn = 0.2, lossToWarn = 0.1, gainToWarn = 0.02;
 /// Of the most area that has carried: less that is lost does not end a run. Fragments may be.
 constexpr Real lostToStop = 0.1;
+/// Stable steps for which bodies that come back have been lost: up to 60 (fast_blocks).
+constexpr Real stepsToBeLost = 75;
 
 /// Whether to warn: every warning waits until things are twice as bad as at the last of its kind.
 bool isWorse(Real value, Real first, Real& warned)
@@ -139,14 +141,21 @@ std::string BalanceWatch::goesThrough(const Parts& parts)
                                  "joints.<name>.stiffness_fraction or give the joint a stiffness; "
                                  "where bodies are fast, refine the mesh or use materials that "
                                  "yield or break.";
-  const bool most = lost > found.carrying && lost > lostToStop * mostCarrying_;
-  const bool stop = most && lastLook_ > 0 && parts.model.stopWhereContactIsLost;
-  lastLook_ = most ? 1 : 0;
-  if (stop)
-    return fmt::format(
-        "{} Bodies go through each other.\n{} contact.lost_contact: warn goes on all "
-        "the same.",
-        told(), advice);
+  const Clock& clock = parts.clock;
+  if (!(lost > found.carrying && lost > lostToStop * mostCarrying_))
+    lostSince_ = -1;
+  else if (lostSince_ < 0)
+    lostSince_ = clock.time;
+  const Real least = stepsToBeLost * clock.nextStep / parts.model.time.stepFactor;
+  if (lostSince_ >= 0 && clock.time - lostSince_ > least)
+  {
+    const std::string through = told() + " Bodies go through each other.";
+    if (parts.model.stopWhereContactIsLost)
+      return fmt::format("{}\n{} contact.lost_contact: warn goes on all the same.", through,
+                         advice);
+    if (isWorse(lost, 0, warned_.through))
+      logWarning("bodies go through each other", through + " " + advice);
+  }
   if (lost > 0 && isWorse(lost, 0, warned_.lost))
     logWarning("contact is lost", fmt::format("{} {}", told(), advice));
   return "";

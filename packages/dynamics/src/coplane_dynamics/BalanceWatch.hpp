@@ -36,8 +36,8 @@ public:
   /// Why the run cannot go on; empty: it can. Collective.
   std::string broken(const EnergyBalance& balance, const Parts& parts) const;
   /// Why the run cannot go on since bodies go through each other; empty: it can. Warns of bodies
-  /// that do. Faces of bodies that meet at the speed of waves may be lost for some ten cycles and
-  /// come back, so looks that are far enough apart have to find that more is lost than carries.
+  /// that do. Bodies that meet at the speed of waves may be deeper in each other than contact
+  /// reaches, and come back, so that has to last for as long as waves take to cross many elements.
   /// Collective.
   std::string goesThrough(const Parts& parts);
   /// Blocks come in: what lies in each other at the next look is not lost.
@@ -55,9 +55,10 @@ public:
     number(self.warned_.remainder);
     number(self.warned_.tooDeep);
     number(self.warned_.lost);
+    number(self.warned_.through);
     number(self.mostCarrying_);
     number(self.accepted_);
-    number(self.lastLook_);
+    number(self.lostSince_);
     number(self.warned_.capped);
     number(self.warned_.debris);
     number(self.warned_.lines);
@@ -76,13 +77,14 @@ private:
   /// What was warned of last.
   struct Warned
   {
-    Real error = 0, remainder = 0, tooDeep = 0, lost = 0, capped = 0, debris = 0, lines = 0;
+    Real error = 0, remainder = 0, tooDeep = 0, lost = 0, through = 0, capped = 0, debris = 0,
+         lines = 0;
   };
   Warned warned_;
   Real mostCarrying_ = 0; ///< area on which planes have carried at a look, the most so far [m^2]
   Real accepted_ = 0;     ///< area that was lost already when bodies came; -1: to be found [m^2]
-  Real lastLook_ = 0;     ///< 1: the last one found more lost than carries
-  Real inPlay_ = 0;       ///< energy in play at the last look [J]
+  Real lostSince_ = -1; ///< time from which on looks have found more lost than carries; -1: not [s]
+  Real inPlay_ = 0;     ///< energy in play at the last look [J]
   /// Kinetic energy of velocities that come of the round-off of coordinates in one step [J].
   Real roundOff_ = 0;
 
