@@ -3,7 +3,7 @@
 #include <coplane_checkpoint/StateTables.hpp>
 #include <coplane_contact/ContactRules.hpp>
 #include <coplane_contact/EndedPlanes.hpp>
-#include <coplane_contact/FacePairKernel.hpp>
+#include <coplane_contact/PairLife.hpp>
 #include <coplane_contact/FaceTable.hpp>
 #include <coplane_contact/Faces.hpp>
 #include <coplane_contact/ForceSums.hpp>

@@ -3,6 +3,8 @@
 #include <coplane_contact/Plane.hpp>
 #include <coplane_core/Prefetch.hpp>
 
+#include <cstddef>
+
 namespace coplane
 {
 /// What all planes of a face add to its nodes.
@@ -21,6 +23,7 @@ struct FaceLoad
   /// Brings what add() reads into the cache.
   static KOKKOS_FORCEINLINE_FUNCTION void prefetchFrom(const Plane& plane, int side)
   {
+    static_assert(offsetof(Plane, nodal) == 64 && sizeof(Plane::nodal) == 3 * 64);
     prefetch(&plane.nodal[side]);
     prefetch(&plane.nodeStiffness);
   }

@@ -1,4 +1,4 @@
-#include <coplane_contact/FacePairKernel.hpp>
+#include <coplane_contact/PairLife.hpp>
 #include <coplane_contact/PlaneState.hpp>
 #include <coplane_contact/detail/DeclaredJoints.hpp>
 #include <coplane_contact/detail/EdgesOfSurfaces.hpp>

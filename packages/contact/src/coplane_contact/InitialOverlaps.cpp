@@ -34,8 +34,8 @@ std::map<int, Real> volumesOf(const std::vector<int>& bodies, const Contact& con
     const FaceCorners corners = cornersAt(x, face);
     const Vec3 center = corners.center(), area = corners.area(contact.dimension());
     if (norm(area) > 0)
-      sums[std::size_t(found - bodies.begin())].add(
-          dot(center, normalised(area)) * detail::wholeArea(contact, center, area) / dimension);
+      sums[std::size_t(found - bodies.begin())].add(dot(center, normalised(area)) *
+                                                    wholeArea(contact, center, area) / dimension);
   }
   const std::vector<Real> totals = ExactSum::overRanks(sums, contact.comm());
   std::map<int, Real> volumes;

@@ -18,15 +18,8 @@ struct InitialOverlap
                         0}; ///< where it is deepest, and the face through which the way leads out
 };
 
-/// Points of faces that overlap by less than this fraction of the element behind the face are
-/// round-off of the mesh, or facets of curved bodies that touch.
-constexpr Real smallestOverlap = 1e-3;
-
 /// All overlaps of bodies, sorted by blocks: also of those that lie wholly in another one, which
 /// step 5 does not see. Not of faces that rules exclude.
-///
-/// Rays from points just below each face count through how many surfaces they leave bodies: a
-/// body's surface is closed, so that tells in how many of them the point lies, wherever they are.
 /// @param bodyOfNode for every node of this rank's elements a number of its body, the same on all
 ///        ranks
 /// @param declaredAbsorb without what declared joints absorb as they are closed, before the first

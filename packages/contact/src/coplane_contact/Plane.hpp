@@ -162,6 +162,9 @@ struct alignas(64) Plane
   std::uint8_t covered = 0; ///< another body lies on the face there, flush at this edge
   std::uint8_t seams = 0;   ///< the surface goes on there, on another body
   bool crushedUnevenly = false;
+
+  // So much lies in the first line of the cache, the forces of either face in the next ones
+  // (FaceLoad).
   /// That carries traction; with the potential as it was when the faces met: tractions and
   /// stiffnesses are per this area (planeNow() shows those of now) [m^2].
   Real area = 0;
@@ -270,11 +273,13 @@ struct alignas(64) Plane
       pairing = shallow ? (growing ? Pairing::ShallowGrowing : Pairing::Shallow)
                         : (growing ? Pairing::Growing : Pairing::Usual);
   }
-  /// Less deep than this a pair may begin with little energy, and grow: with the usual limit, well
-  /// within the depth down to which searches know pairs [m].
+  /// Depth at which no contact begins any more, over the depth limit: with the usual limit, well
+  /// within the depth down to which searches know pairs [-].
+  static constexpr Real deepestStart = 1.25;
+  /// Less deep than this a pair may begin with little energy, and grow [m].
   KOKKOS_INLINE_FUNCTION Real deepestToGrow() const
   {
-    return isShallow() ? depthLimit : 1.25 * depthLimit;
+    return isShallow() ? depthLimit : deepestStart * depthLimit;
   }
 
   /// Closure that the law sees: beyond the depth limit the force is frozen [m].

@@ -1,4 +1,3 @@
-#include <coplane_contact/InitialOverlaps.hpp>
 #include <coplane_contact/detail/DeclaredJoints.hpp>
 #include <coplane_contact/detail/PointsInBodies.hpp>
 #include <coplane_core/Lists.hpp>
@@ -33,6 +32,7 @@ struct Crossing
   int block = 0, group = 0;
   GlobalId faceId = 0;
   Real thickness = 0; ///< of the element behind the face [m]
+  bool isCut = false; ///< the face lies in a plane of symmetry
 };
 
 /// The faces that this rank owns, in a grid across each axis.
@@ -94,7 +94,7 @@ public:
             normal,           leaves,
             body(face),       face.block,
             face.group,       face.id,
-            face.thickness};
+            face.thickness,   face.isCut()};
   }
 
   /// Centre [m] and vector area [m^2].
@@ -132,6 +132,22 @@ private:
     return *grids_[axis];
   }
 
+  /// Along an axis, of all boxes but for a few at both ends: fragments that have flown away would
+  /// leave the others in a few bins.
+  std::pair<Real, Real> extentOfMost(int axis) const
+  {
+    std::vector<Real> low, high;
+    for (const Box& box : boxes_)
+    {
+      low.push_back(box.low[axis]);
+      high.push_back(box.high[axis]);
+    }
+    const std::size_t few = boxes_.size() / 50;
+    std::nth_element(low.begin(), low.begin() + std::ptrdiff_t(few), low.end());
+    std::nth_element(high.begin(), high.end() - 1 - std::ptrdiff_t(few), high.end());
+    return {low[few], *(high.end() - 1 - std::ptrdiff_t(few))};
+  }
+
   Grid filled(int axis) const
   {
     Grid grid;
@@ -141,10 +157,10 @@ private:
     const int across[2] = {grid.u, grid.v};
     for (int d = 0; d < (dimension_ == 2 ? 1 : 2); ++d)
     {
-      const Real extent = all_.high[across[d]] - all_.low[across[d]];
-      grid.low[d] = all_.low[across[d]];
+      const auto [low, high] = extentOfMost(across[d]);
+      grid.low[d] = low;
       grid.bins[d] = int(std::min(1e4, dimension_ == 2 ? wanted : std::ceil(std::sqrt(wanted))));
-      grid.perBin[d] = extent > 0 ? grid.bins[d] / extent : 0;
+      grid.perBin[d] = high > low ? grid.bins[d] / (high - low) : 0;
     }
     const auto forEachBin = [&](const Box& box, const auto& visit)
     {
@@ -259,12 +275,21 @@ std::vector<std::vector<Answer>> askAll(const std::vector<Ray>& rays, const std:
   return byRay;
 }
 
+/// From a point out of another body.
+struct WayOut
+{
+  int votes = 0; ///< rays that say that the point is inside
+  Real depth = infinity;
+  const Crossing* through = nullptr;
+};
+
 /// In which other bodies a point lies, and the least way out of each, from what the rays along all
 /// axes met.
-void findBodies(const PointBelow& point, int ownBody, const std::vector<Crossing>* rays, int count,
-                const Contact& contact, bool declaredAbsorb, std::vector<PointInBody>& inside)
+std::map<int, WayOut> waysOut(const PointBelow& point, int ownBody,
+                              const std::vector<Crossing>* rays, int count, WaysOut ways)
 {
-  std::map<int, std::pair<int, PointInBody>> others; // rays that say inside, way out
+  constexpr Real behind = 0.25; // cosine between two faces
+  std::map<int, WayOut> others;
   for (int i = 0; i < count; ++i)
   {
     std::map<int, int> leavings;
@@ -276,37 +301,54 @@ void findBodies(const PointBelow& point, int ownBody, const std::vector<Crossing
         continue;
       const Crossing* nearest = nullptr;
       for (const Crossing& c : rays[i])
-        if (c.body == body && c.leaves > 0 &&
+        if (c.body == body && c.leaves > 0 && !c.isCut &&
             (!nearest || std::tie(c.way, c.faceId) < std::tie(nearest->way, nearest->faceId)))
           nearest = &c;
-      auto& [votes, out] = others.emplace(body, std::make_pair(0, PointInBody{})).first->second;
+      WayOut& out = others[body];
+      ++out.votes;
+      if (!nearest || (ways == WaysOut::NotBehind && dot(point.normal, nearest->normal) > behind))
+        continue;
       // The face is as far from the surface as the point, less what the point lies below it.
       const Real depth = std::min(nearest->way, std::abs(nearest->depth)) +
                          smallestOverlap * point.face->thickness;
-      if (++votes == 1 || std::tie(depth, nearest->faceId) < std::tie(out.depth, out.faceId[1]))
-        out = {{ownBody, body},
-               {point.face->block, nearest->block},
-               {point.face->id, nearest->faceId},
-               depth,
-               std::min(point.face->thickness, nearest->thickness),
-               point.area,
-               std::max(0.0, -dot(point.normal, nearest->normal))};
+      if (!out.through ||
+          std::tie(depth, nearest->faceId) < std::tie(out.depth, out.through->faceId))
+      {
+        out.depth = depth;
+        out.through = nearest;
+      }
     }
   }
-  for (const auto& [body, found] : others)
-    if (2 * found.first > count)
-    {
-      int group = 0;
-      for (int i = 0; i < count; ++i)
-        for (const Crossing& crossing : rays[i])
-          if (crossing.faceId == found.second.faceId[1])
-            group = crossing.group;
-      const ContactRule& rule = contact.rules().between(point.face->group, group);
-      const bool isJoint = rule.declared && found.second.depth <= widestJoint * point.size;
-      if (rule.excluded || (declaredAbsorb && isJoint))
-        continue;
-      inside.push_back(found.second);
-    }
+  return others;
+}
+
+/// Adds the bodies that a point lies in.
+void findBodies(const PointBelow& point, int ownBody, const std::vector<Crossing>* rays, int count,
+                const Contact& contact, bool declaredAbsorb, WaysOut ways,
+                std::vector<PointInBody>& inside)
+{
+  const auto ruleWith = [&](const Crossing& crossing)
+  { return contact.rules().between(point.face->group, crossing.group); };
+  for (const auto& [body, out] : waysOut(point, ownBody, rays, count, ways))
+  {
+    if (2 * out.votes <= count || !out.through)
+      continue;
+    bool excluded = false;
+    for (int i = 0; i < count; ++i)
+      for (const Crossing& crossing : rays[i])
+        excluded = excluded || (crossing.body == body && ruleWith(crossing).excluded);
+    const bool isJoint = ruleWith(*out.through).declared && out.depth <= widestJoint * point.size;
+    if (excluded || (declaredAbsorb && isJoint))
+      continue;
+    const Crossing& through = *out.through;
+    inside.push_back({{ownBody, body},
+                      {point.face->block, through.block},
+                      {point.face->id, through.faceId},
+                      out.depth,
+                      std::min(point.face->thickness, through.thickness),
+                      point.area,
+                      std::max(0.0, -dot(point.normal, through.normal))});
+  }
 }
 
 std::vector<PointBelow> pointsBelow(const Contact& contact, const ConstNodeVectors& x,
@@ -315,7 +357,7 @@ std::vector<PointBelow> pointsBelow(const Contact& contact, const ConstNodeVecto
   std::vector<PointBelow> points;
   for (const Face& face : contact.localFaces())
   {
-    if (!face.ownedHere)
+    if (!face.ownedHere || face.isCut())
       continue;
     const FaceCorners corners = cornersAt(x, face);
     const Vec3 center = corners.center(), vectorArea = corners.area(contact.dimension());
@@ -351,7 +393,8 @@ std::vector<PointBelow> pointsBelowFaces(const Contact& contact, const ConstNode
 
 std::vector<PointInBody> pointsInBodies(const std::vector<PointBelow>& points,
                                         const Contact& contact, const ConstNodeVectors& x,
-                                        const std::vector<int>& bodyOfFace, bool declaredAbsorb)
+                                        const std::vector<int>& bodyOfFace, bool declaredAbsorb,
+                                        WaysOut ways)
 {
   const Comm& comm = contact.comm();
   const BodySurfaces surfaces(contact, x, bodyOfFace);
@@ -392,7 +435,8 @@ std::vector<PointInBody> pointsInBodies(const std::vector<PointBelow>& points,
   std::vector<PointInBody> inside;
   for (std::size_t s = 0; s < suspects.size(); ++s)
     findBodies(*suspects[s], surfaces.body(*suspects[s]->face),
-               &crossings[s * std::size_t(raysEach)], raysEach, contact, declaredAbsorb, inside);
+               &crossings[s * std::size_t(raysEach)], raysEach, contact, declaredAbsorb, ways,
+               inside);
   return inside;
 }
 } // namespace coplane::detail

@@ -6,16 +6,32 @@
 
 namespace coplane
 {
-/// Brings numbers or records into the cache, to be read and written soon.
-/// @param count of T
-template <class T>
-KOKKOS_FORCEINLINE_FUNCTION void prefetch(const T* from, std::size_t count = 1)
+namespace detail
+{
+/// Lines from the address on; what begins within a line may end one line further.
+template <int toWrite, class T>
+KOKKOS_FORCEINLINE_FUNCTION void prefetchLines(const T* from, std::size_t count)
 {
   constexpr std::size_t line = 64;
   const char* const first = reinterpret_cast<const char*>(from);
   for (std::size_t at = 0; at < count * sizeof(T); at += line)
-    __builtin_prefetch(first + at, 1);
+    __builtin_prefetch(first + at, toWrite);
   // GCC takes a function that does nothing else for one without effect, and leaves out its calls.
   asm volatile("");
+}
+} // namespace detail
+
+/// Brings numbers or records into the cache, to be read soon.
+/// @param count of T
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION void prefetch(const T* from, std::size_t count = 1)
+{
+  detail::prefetchLines<0>(from, count);
+}
+/// The same, to be written: by no other thread at the same time.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION void prefetchToWrite(const T* from, std::size_t count = 1)
+{
+  detail::prefetchLines<1>(from, count);
 }
 } // namespace coplane

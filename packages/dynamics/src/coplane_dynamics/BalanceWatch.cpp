@@ -1,6 +1,7 @@
 #include <coplane_contact/LostContact.hpp>
 #include <coplane_core/ExactSum.hpp>
 #include <coplane_core/Log.hpp>
+#include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/BalanceWatch.hpp>
 #include <coplane_dynamics/WorstEntities.hpp>
 #include <coplane_mesh/FaceName.hpp>
@@ -16,8 +17,8 @@ namespace
 // When warn() speaks: at this fraction of the error at which the run stops; at these fractions of
 // the energy in play that contact has lost or gained by the remainder.
 constexpr Real errorToWarn = 0.2, lossToWarn = 0.1, gainToWarn = 0.02;
-/// Of the most area that has carried: less that is lost does not end a run. Fragments may be.
-constexpr Real lostToStop = 0.1;
+/// Of the surface of all bodies: less that is lost does not end a run. Fragments may be.
+constexpr Real lostToStop = 0.003;
 /// Stable steps for which bodies that come back have been lost: up to 60 (fast_blocks).
 constexpr Real stepsToBeLost = 75;
 
@@ -53,7 +54,7 @@ void BalanceWatch::open(const EnergyBalance& initial, const Parts& parts)
   roundOff_ = ExactSum::overRanks(mass, parts.comm)[0] * speed * speed;
   inPlay_ = inPlayOf(initial);
   if (parts.contact)
-    accepted_ = lostContact(*parts.contact, parts.state.x).lost;
+    accepted_ = bodiesInEachOther(*parts.contact, parts.state.x);
 }
 
 /// Least gain that ends the run, or that warn() has to tell of.
@@ -119,21 +120,55 @@ std::string BalanceWatch::broken(const EnergyBalance& balance, const Parts& part
   return "";
 }
 
-std::string BalanceWatch::goesThrough(const Parts& parts)
+void BalanceWatch::acceptOverlapsOf(const std::vector<int>& blocks)
 {
-  const LostContact found = lostContact(*parts.contact, parts.state.x);
-  mostCarrying_ = std::max(mostCarrying_, found.carrying);
-  if (accepted_ < 0)
-    accepted_ = found.lost;
-  const Real lost = found.lost - accepted_;
+  coming_.insert(coming_.end(), blocks.begin(), blocks.end());
+}
+
+void BalanceWatch::saveBodies(StateTables& out) const
+{
+  std::vector<Real> numbers{Real(accepted_.size())};
+  for (const BodyPair& pair : accepted_)
+    numbers.insert(numbers.end(), pair.begin(), pair.end());
+  numbers.insert(numbers.end(), coming_.begin(), coming_.end());
+  out.numbers("solver/bodies_in_each_other", numbers);
+}
+
+void BalanceWatch::restoreBodies(const StateSource& in)
+{
+  const std::vector<Real> numbers = in.numbers("solver/bodies_in_each_other");
+  const std::size_t pairs = numbers.empty() ? 0 : std::size_t(numbers[0]);
+  if (numbers.size() < 1 + 2 * pairs)
+    failOnAllRanks(ExitCode::Checkpoint, "{}: pairs of bodies are missing.", in.name());
+  accepted_.clear();
+  for (std::size_t i = 0; i < pairs; ++i)
+    accepted_.push_back({int(numbers[1 + 2 * i]), int(numbers[2 + 2 * i])});
+  coming_.assign(numbers.begin() + std::ptrdiff_t(1 + 2 * pairs), numbers.end());
+}
+
+std::string BalanceWatch::goesThrough(const Parts& parts, Real stableStep)
+{
+  TimedRegion region("coplane::dynamics::lostContact");
+  if (!coming_.empty())
+  {
+    const std::vector<BodyPair> old = std::move(accepted_);
+    const std::vector<BodyPair> added =
+        bodiesInEachOther(*parts.contact, parts.state.x, std::exchange(coming_, {}));
+    accepted_.clear();
+    std::set_union(old.begin(), old.end(), added.begin(), added.end(),
+                   std::back_inserter(accepted_));
+  }
+  const LostContact found = lostContact(*parts.contact, parts.state.x, accepted_);
+  const Real lost = found.lost;
   const auto nameOf = [&](int side)
   { return parts.model.blocks[std::size_t(found.block[side])].name; };
   const auto told = [&]
   {
     return fmt::format(
-        "{}: {} faces lie in other bodies, deeper than the elements there are thick, and carry "
-        "nothing, on {:.2e} m2, while contact carries on {:.2e} m2. Deepest: {} of block '{}', "
-        "{:.3g} m in block '{}' behind {}.",
+        "{}: {} faces lie in other bodies, deeper than contact begins, and carry nothing, on "
+        "{:.2e} "
+        "m2, while contact carries on {:.2e} m2. Deepest: {} of block '{}', {:.3g} m in block '{}' "
+        "behind {}.",
         now(parts.clock), found.faces, lost, found.carrying, faceName(found.faceId[0]), nameOf(0),
         found.depth, nameOf(1), faceName(found.faceId[1]));
   };
@@ -141,13 +176,12 @@ std::string BalanceWatch::goesThrough(const Parts& parts)
                                  "joints.<name>.stiffness_fraction or give the joint a stiffness; "
                                  "where bodies are fast, refine the mesh or use materials that "
                                  "yield or break.";
-  const Clock& clock = parts.clock;
-  if (!(lost > found.carrying && lost > lostToStop * mostCarrying_))
+  const Real time = parts.clock.time;
+  if (!(lost > found.carrying && lost > lostToStop * found.surface))
     lostSince_ = -1;
   else if (lostSince_ < 0)
-    lostSince_ = clock.time;
-  const Real least = stepsToBeLost * clock.nextStep / parts.model.time.stepFactor;
-  if (lostSince_ >= 0 && clock.time - lostSince_ > least)
+    lostSince_ = time;
+  if (lostSince_ >= 0 && time - lostSince_ > stepsToBeLost * stableStep)
   {
     const std::string through = told() + " Bodies go through each other.";
     if (parts.model.stopWhereContactIsLost)
@@ -156,7 +190,7 @@ std::string BalanceWatch::goesThrough(const Parts& parts)
     if (isWorse(lost, 0, warned_.through))
       logWarning("bodies go through each other", through + " " + advice);
   }
-  if (lost > 0 && isWorse(lost, 0, warned_.lost))
+  else if (lost > 0 && isWorse(lost, 0, warned_.lost))
     logWarning("contact is lost", fmt::format("{} {}", told(), advice));
   return "";
 }

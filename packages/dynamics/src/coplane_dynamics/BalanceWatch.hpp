@@ -1,15 +1,19 @@
 #pragma once
 
+#include <coplane_checkpoint/StateTables.hpp>
+#include <coplane_contact/LostContact.hpp>
 #include <coplane_dynamics/Ledger.hpp>
 #include <coplane_dynamics/Parts.hpp>
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 namespace coplane
 {
-/// Looks at the energy balance now and then: says when a run cannot go on, and warns before. What
-/// contact makes out of nothing it looks at in every cycle, by a bound that costs next to nothing.
+/// Looks at the energy balance, and whether bodies go through each other, now and then: says when a
+/// run cannot go on, and warns before. What contact makes out of nothing it looks at in every
+/// cycle, by a bound that costs next to nothing.
 ///
 /// A gain is news when it is beyond `least`, a fraction of the energy in play at the last look.
 /// With G the gain of all ranks when it was last summed, one of R ranks has gained at least (least
@@ -39,9 +43,12 @@ public:
   /// that do. Bodies that meet at the speed of waves may be deeper in each other than contact
   /// reaches, and come back, so that has to last for as long as waves take to cross many elements.
   /// Collective.
-  std::string goesThrough(const Parts& parts);
-  /// Blocks come in: what lies in each other at the next look is not lost.
-  void acceptOverlaps() { accepted_ = -1; }
+  /// @param stableStep in which they cross the smallest [s]
+  std::string goesThrough(const Parts& parts, Real stableStep);
+  /// Bodies of these blocks come in: whatever they lie in at the next look they may lie in.
+  void acceptOverlapsOf(const std::vector<int>& blocks);
+  void saveBodies(StateTables& out) const;
+  void restoreBodies(const StateSource& in);
 
   /// The look itself: warns of errors, of what contact makes or loses, of planes that are capped or
   /// too deep; again when things are twice as bad as at the last warning of the kind. Collective.
@@ -56,8 +63,6 @@ public:
     number(self.warned_.tooDeep);
     number(self.warned_.lost);
     number(self.warned_.through);
-    number(self.mostCarrying_);
-    number(self.accepted_);
     number(self.lostSince_);
     number(self.warned_.capped);
     number(self.warned_.debris);
@@ -81,10 +86,11 @@ private:
          lines = 0;
   };
   Warned warned_;
-  Real mostCarrying_ = 0; ///< area on which planes have carried at a look, the most so far [m^2]
-  Real accepted_ = 0;     ///< area that was lost already when bodies came; -1: to be found [m^2]
-  Real lostSince_ = -1; ///< time from which on looks have found more lost than carries; -1: not [s]
-  Real inPlay_ = 0;     ///< energy in play at the last look [J]
+  Real lostSince_ = -1; ///< time from which on looks have found too much of it; -1: not [s]
+  /// That may lie in each other, as they did at the start or when they came; sorted.
+  std::vector<BodyPair> accepted_;
+  std::vector<int> coming_; ///< blocks that have come since the last look
+  Real inPlay_ = 0;         ///< energy in play at the last look [J]
   /// Kinetic energy of velocities that come of the round-off of coordinates in one step [J].
   Real roundOff_ = 0;
 

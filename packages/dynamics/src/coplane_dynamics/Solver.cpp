@@ -250,7 +250,8 @@ void Solver::findElementForces()
 bool Solver::erode(Real dt)
 {
   const std::vector<int> leaving = std::exchange(leaving_, {});
-  const bool facesChange = comeIn(std::exchange(coming_, {}), clock_.time + dt);
+  const ComingBlocks coming = std::exchange(coming_, {});
+  const bool facesChange = comeIn(coming, clock_.time + dt);
   const std::vector<GlobalId> dead =
       erosion_->erode(mesh(), elements_, {state_.v, dt}, state_.substeps, subcycling_.lastStep(dt),
                       leaving, *comm_);
@@ -262,7 +263,7 @@ bool Solver::erode(Real dt)
   leaveWithoutElements(dead, contact_ ? &contact_->localFaces() : nullptr);
   takeMassAlong(leaving); // planes have ended with the velocities that there were
   if (facesChange)
-    watch_.acceptOverlaps();
+    watch_.acceptOverlapsOf(coming.blocks);
   renewDebris();
   return true;
 }
@@ -611,8 +612,9 @@ void Solver::judge(Observer& observer)
   const bool due = clock_.cycle % energyCheckEvery == 0 || isOver();
   if (!due && !contactMayHaveGained_)
     return;
-  if (contact_ && clock_.cycle % energyCheckEvery == 0)
-    if (const std::string through = watch_.goesThrough(parts()); !through.empty())
+  if (contact_ && due)
+    if (const std::string through = watch_.goesThrough(parts(), stableStepOfWaves());
+        !through.empty())
       failAfter(observer, computationFailed(through));
   const EnergyBalance balance = energy();
   const bool gained = contact_ && watch_.hasGained(balance, parts());

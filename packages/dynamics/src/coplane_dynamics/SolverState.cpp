@@ -118,6 +118,7 @@ void Solver::save(StateTables& out) const
   if (debris_)
     debris_->save(out);
   erosion_->save(out, *comm_);
+  watch_.saveBodies(out);
   std::vector<Real> numbers;
   forEachNumber(*this, [&](const auto& value) { numbers.push_back(Real(value)); });
   out.numbers("solver/numbers", numbers);
@@ -151,6 +152,7 @@ void Solver::restore(const StateSource& in)
   }
   findElementForces();
   restoreNumbers(in);
+  watch_.restoreBodies(in);
   watch_.forgetPlanes();
   if (contact_)
   {

@@ -51,13 +51,13 @@ struct ElementArrays
     prefetch(&connectivity(first, 0), connectivity.extent(1) * laneCount);
     for (const Array<Real>* const numbers :
          {&mass, &referenceVolume, &referenceLength, &stableStep, &volume})
-      prefetch(&(*numbers)(first), laneCount);
+      prefetchToWrite(&(*numbers)(first), laneCount);
     for (const ElementTable* const table :
          {&cornerMass, &pointMass, &stress, &history, &tangent, &hourglassForce,
           &hourglassViscousForce, &compression, &energies, &deformation, &volumeRatio, &pointStress,
           &pointHistory, &pointEnergy})
-      prefetch(table->batch(batch), table->extent(0) * laneCount);
-    prefetch(&cornerForce(first, 0, 0), 3 * cornerForce.extent(1) * laneCount);
+      prefetchToWrite(table->batch(batch), table->extent(0) * laneCount);
+    prefetchToWrite(&cornerForce(first, 0, 0), 3 * cornerForce.extent(1) * laneCount);
   }
 
   /// Calls f(of a, of b) for all arrays of two blocks of the same kind but the connectivity.

@@ -159,8 +159,9 @@ Key contactKeys()
                  text("lost_contact", &ContactCard::lostContact)
                      .oneOf({"stop", "warn"})
                      .like("warn")
-                     .means("when bodies go through each other: more of their faces lies deeper in "
-                            "each other than contact reaches than carries"),
+                     .means(
+                         "when bodies go through each other: end the run with code 6, or warn and "
+                         "go on"),
                  text("debris", &ContactCard::debris)
                      .oneOf({"none", "points"})
                      .like("points")

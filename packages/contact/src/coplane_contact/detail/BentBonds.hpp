@@ -1,7 +1,7 @@
 #pragma once
 
 #include <coplane_contact/ContactPotential.hpp>
-#include <coplane_contact/FacePairKernel.hpp>
+#include <coplane_contact/PairLife.hpp>
 
 #include <cmath>
 

@@ -220,7 +220,7 @@ private:
     if (i + planesAhead < count)
       if (const int p = near[i + planesAhead];
           !pairs_.carriesNothing(p) && pairs_.planes[p] != nullptr)
-        prefetch(pairs_.planes[p]);
+        prefetchToWrite(pairs_.planes[p]);
     if (i + facesAhead < count)
       prefetch(&face(near[i + facesAhead], 1));
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <coplane_contact/FacePairKernel.hpp>
+#include <coplane_contact/PairLife.hpp>
 #include <coplane_contact/PlaneState.hpp>
 
 #include <cmath>

@@ -1,36 +1,13 @@
 #pragma once
 
-#include <coplane_contact/ContactPotential.hpp>
 #include <coplane_contact/FaceLoad.hpp>
-#include <coplane_contact/FacePairSteps.hpp>
+#include <coplane_contact/PairLife.hpp>
+
+// Steps B to H of a pair of faces whose forces act along the normal of their common plane, as the
+// paper has them.
 
 namespace coplane
 {
-/// Planes that are updated side by side, one for each lane of T; with Real just one. The lanes from
-/// `count` on repeat others and are not written.
-template <class T>
-struct PlaneBatch
-{
-  static constexpr int width = branchFree::widthOf<T>;
-  int count = width;
-  Plane* plane[width];
-  const JointLaw* law[width];
-
-  /// get(plane) of all of them.
-  template <class Get>
-  KOKKOS_INLINE_FUNCTION T each(const Get& get) const
-  {
-    return branchFree::gathered<T>([&](int i) -> Real { return get(*plane[i]); });
-  }
-  template <class Get>
-  KOKKOS_INLINE_FUNCTION Vec3Of<T> eachVector(const Get& get) const
-  {
-    return {each([&](const Plane& p) { return get(p).x; }),
-            each([&](const Plane& p) { return get(p).y; }),
-            each([&](const Plane& p) { return get(p).z; })};
-  }
-};
-
 /// Velocity of face 1 relative to face 0 at the point of contact, and the mean spin of the pair.
 template <class T>
 struct RelativeMotionOf
@@ -75,115 +52,6 @@ relativeMotion(const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b, const Pat
       weighted(patch.weights[1], b.v, b.count) - weighted(patch.weights[0], a.v, a.count);
   motion.jump = motion.drift - cross(motion.spin, arm);
   return motion;
-}
-
-/// Carries a traction that lies in the plane with normal `from` into the plane with normal `to`:
-/// least rotation, then the pair's spin about the new normal during dt, and no change of length.
-template <class T>
-KOKKOS_INLINE_FUNCTION Vec3Of<T> turnIntoPlane(const Vec3Of<T>& traction, const Vec3Of<T>& from,
-                                               const Vec3Of<T>& to, const Vec3Of<T>& spin, Real dt)
-{
-  const T size = norm(traction);
-  if (!branchFree::anyOf(size > 0.0))
-    return traction;
-  const Vec3Of<T> k = cross(from, to);
-  const Vec3Of<T> kTau = cross(k, traction);
-  Vec3Of<T> turned = traction + kTau + (1.0 / (1.0 + dot(from, to))) * cross(k, kTau);
-  // The spin of a finite rotation between two positions is its Cayley vector: 2 tan(angle / 2) /
-  // dt.
-  const T t = 0.5 * dt * dot(to, spin);
-  const T scale = 1.0 / (1.0 + t * t);
-  turned = (scale * (1.0 - t * t)) * turned + (2.0 * scale * t) * cross(to, turned);
-  turned = turned - dot(to, turned) * to;
-  const T length = norm(turned);
-  return branchFree::choose(length > 0.0, size / length, T(0.0)) * turned;
-}
-
-/// Work of forces of the nodes in half a step, by which the work of a step is their mean [J].
-template <class T>
-KOKKOS_INLINE_FUNCTION T halfStepWork(const Vec3Of<T> (&nodal)[2][4], const HalfStepFaceOf<T>& a,
-                                      const HalfStepFaceOf<T>& b, Real dt)
-{
-  T power{};
-  for (int i = 0; i < a.count; ++i)
-    power += dot(nodal[0][i], a.v[i]);
-  for (int i = 0; i < b.count; ++i)
-    power += dot(nodal[1][i], b.v[i]);
-  return (0.5 * dt) * power;
-}
-
-/// Work of the old force on the nodes in this step, by the trapezoid rule [J]; of the planes that
-/// carry traction, in the lanes of `mine`.
-template <class T>
-KOKKOS_INLINE_FUNCTION void
-bookOldForce(const PlaneBatch<T>& planes, const branchFree::MaskOf<T>& mine,
-             const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b, Real dt)
-{
-  const auto carried = mine && planes.each([](const Plane& p) { return p.area; }) > 0.0;
-  if (!branchFree::anyOf(carried))
-    return;
-  Vec3Of<T> nodal[2][4];
-  const int count[2] = {a.count, b.count};
-  for (int f = 0; f < 2; ++f)
-    for (int i = 0; i < count[f]; ++i)
-      nodal[f][i] = planes.eachVector([&](const Plane& p) { return p.nodal[f][i]; });
-  const T work = halfStepWork(nodal, a, b, dt);
-  for (int i = 0; i < planes.count; ++i)
-    if (branchFree::lane(carried, i))
-      planes.plane[i]->work -= branchFree::lane(work, i);
-}
-
-KOKKOS_INLINE_FUNCTION void bookOldForce(Plane& plane, const HalfStepFace& a, const HalfStepFace& b,
-                                         Real dt)
-{
-  PlaneBatch<Real> one;
-  one.plane[0] = &plane;
-  bookOldForce(one, true, a, b, dt);
-}
-
-/// Forces of the nodes, and their work in the second half of the step.
-template <class T>
-KOKKOS_INLINE_FUNCTION void putForces(const PlaneBatch<T>& planes,
-                                      const branchFree::MaskOf<T>& touching,
-                                      const Vec3Of<T> (&nodal)[2][4], const HalfStepFaceOf<T>& a,
-                                      const HalfStepFaceOf<T>& b, Real dt)
-{
-  using branchFree::lane;
-  const T work = halfStepWork(nodal, a, b, dt);
-  for (int i = 0; i < planes.count; ++i)
-  {
-    if (!lane(touching, i))
-      continue;
-    Plane& plane = *planes.plane[i];
-    for (int f = 0; f < 2; ++f)
-      for (int k = 0; k < 4; ++k)
-        plane.nodal[f][k] = lane(nodal[f][k], i);
-    plane.work -= lane(work, i);
-  }
-}
-
-/// No traction in this cycle; history stays. The work of the last force has been booked.
-KOKKOS_INLINE_FUNCTION void carryNothing(Plane& plane)
-{
-  plane.dropForces();
-  plane.normalDamping = 0;
-  plane.area = 0;
-  plane.stored = 0;
-  plane.normalTraction = 0;
-  plane.tooDeep = false;
-  if (plane.isBorn())
-  {
-    plane.closure = 0;
-    plane.history.shearTraction = {};
-    plane.state = PlaneState::Open;
-  }
-}
-
-KOKKOS_INLINE_FUNCTION void openUp(Plane& plane, const HalfStepFace& a, const HalfStepFace& b,
-                                   Real dt)
-{
-  bookOldForce(plane, a, b, dt);
-  carryNothing(plane);
 }
 
 /// The forces on a face's corners at the end of the step that balance half of a moment.
@@ -282,40 +150,6 @@ KOKKOS_FORCEINLINE_FUNCTION JointResponse stepH_law(Plane& plane, const JointLaw
   plane.frictionWork += plane.area * response.frictionWork;
   plane.fractureWork += plane.area * response.fractureWork;
   return response;
-}
-
-/// A dashpot along planes, limited where they are not bonded to what friction at rest holds: in the
-/// step in which faces meet, or on a joint that carries nothing, round-off decides whether they
-/// stick.
-/// @param normalForce compression [N]; damping [N]
-template <class T>
-KOKKOS_INLINE_FUNCTION Vec3Of<T> heldByFriction(const PlaneBatch<T>& planes, const T& normalForce,
-                                                const Vec3Of<T>& damping)
-{
-  using branchFree::choose;
-  const auto bonded = planes.each([](const Plane& p) { return p.history.bonded; }) > 0.0;
-  const T friction = branchFree::gathered<T>(
-      [&](int i) -> Real
-      {
-        const Plane& plane = *planes.plane[i];
-        return plane.normalTraction > 0
-                   ? planes.law[i]->frictionAt(plane.normalTraction, plane.history.slip, 0)
-                   : 0.0;
-      });
-  const T most = friction * choose(normalForce > 0.0, normalForce, T(0.0)), size = norm(damping);
-  return choose(!bonded && size > most, most / size, T(1.0)) * damping;
-}
-
-/// Of a dashpot per area, which takes the fraction zeta of critical damping from a surface that
-/// moves on springs of so much stiffness per area [Pa s/m]. Per area, and by the mass behind faces,
-/// not by that of nodes: so a face that is cut into parts, beside others or not, is damped as a
-/// whole one.
-template <class T>
-KOKKOS_FORCEINLINE_FUNCTION T dashpotPerArea(Real zeta, const T& stiffness,
-                                             const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b)
-{
-  return 2.0 * zeta *
-         branchFree::squareRoot(stiffness / (1.0 / a.massPerArea + 1.0 / b.massPerArea));
 }
 
 /// Dashpots at the point of contact [N].
@@ -424,96 +258,6 @@ stepH_updatePlaneVariables(const PlaneBatch<T>& planes, const branchFree::MaskOf
   putForces(planes, touching, nodal, a, b, dt);
 }
 
-/// Depth, as a fraction of the depth limit, beyond which a first overlap is not taken for a
-/// contact.
-constexpr Real deepestBirth = 0.25;
-/// Shares of area below this fraction of the smaller face are round-off of edges on each other.
-constexpr Real sliverOfFace = 1e-6;
-
-/// Bound on the speed at which corners of the faces approach each other along the normal [m/s], the
-/// same to the bit with the faces in the other order.
-template <class T>
-KOKKOS_INLINE_FUNCTION T approachSpeed(const Vec3Of<T>& normal, const HalfStepFaceOf<T>& a,
-                                       const HalfStepFaceOf<T>& b)
-{
-  T fastest = dot(normal, a.v[0]), slowest = dot(normal, b.v[0]);
-  for (int i = 1; i < a.count; ++i)
-    fastest = branchFree::larger(dot(normal, a.v[i]), fastest);
-  for (int i = 1; i < b.count; ++i)
-    slowest = branchFree::smaller(dot(normal, b.v[i]), slowest);
-  return branchFree::larger(fastest - slowest, T(0.0));
-}
-
-/// Faces carry force when minus the product of their normals is above this [-].
-KOKKOS_INLINE_FUNCTION Real leastOpposed(const ContactOptions& options)
-{
-  return options.forces == ContactOptions::Forces::Potential
-             ? ContactPotentialScale(options).opposedFrom
-             : 0;
-}
-
-/// Area below which what a pair shares counts as none, over that of the smaller face [-].
-KOKKOS_INLINE_FUNCTION Real leastShared(const ContactOptions& options)
-{
-  return options.forces == ContactOptions::Forces::Potential ? options.areaMin : 0;
-}
-
-/// Steps B and C, for the question whether the shadows of a pair can share area that counts.
-template <int Dim, class T>
-KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T>
-mayMeet(const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b, const ContactOptions& options)
-{
-  TrialPlaneOf<T> trial = stepB_trialPointOfContact<Dim>(a, b);
-  trial.opposed = trial.opposed && -dot(a.normal, b.normal) > leastOpposed(options);
-  if (!branchFree::anyOf(trial.opposed))
-    return trial.opposed;
-  const ShadowOf<T> shadowA = stepC_projectOntoPlane<Dim>(trial, a, 0),
-                    shadowB = stepC_projectOntoPlane<Dim>(trial, b, 0);
-  const auto near = trial.opposed && sharedByBoxes(shadowA, shadowB) >
-                                         leastShared(options) * branchFree::smaller(a.area, b.area);
-  if (Dim == 2 || !branchFree::anyOf(near))
-    return near;
-  return near && !edgesPart(shadowA, shadowB);
-}
-
-/// By how much the mean plane of a face may lie beyond its nodes [m].
-KOKKOS_INLINE_FUNCTION Real beyondNodes(const HalfStepFace& face)
-{
-  const Vec3* const x = face.x;
-  return face.count < 4 ? 0 : 0.25 * std::fabs(dot(face.normal, x[0] - x[1] + x[2] - x[3]));
-}
-
-/// Whether faces that oppose each other are apart along the normal of their plane, or along that of
-/// one of them, and stay so for the time `ahead` [s].
-/// @param reach gap from which they would act on each other [m]
-KOKKOS_INLINE_FUNCTION bool areApart(const HalfStepFace& a, const HalfStepFace& b, Real reach,
-                                     Real ahead)
-{
-  constexpr Real roundOff = 1e-7; // of the size of a face
-  const Vec3 normal = normalised(a.normal - b.normal);
-  // Mean planes lie beyond nodes by so much along the normal of the pair.
-  const Real beyond = (beyondNodes(a) + beyondNodes(b)) / dot(normal, a.normal);
-  // Which pairs may touch soon is asked along it, too (PotentialCycle::boundStep).
-  const Real speed = approachSpeed(normal, a, b);
-  const auto areApartAlong = [&](const Vec3& n)
-  {
-    Real lowest = infinity, highest = -infinity;
-    for (int i = 0; i < a.count; ++i)
-      highest = branchFree::larger(dot(n, a.x[i] - a.center), highest);
-    for (int i = 0; i < b.count; ++i)
-      lowest = branchFree::smaller(dot(n, b.x[i] - a.center), lowest);
-    return lowest - highest > ahead * branchFree::larger(approachSpeed(n, a, b), speed) + reach +
-                                  dot(n, normal) * beyond + roundOff * norm(a.x[1] - a.x[0]);
-  };
-  return areApartAlong(normal) || areApartAlong(a.normal) || areApartAlong(-1.0 * b.normal);
-}
-
-/// Before steps E and F of a pair: whether it penetrates when it is looked at for the first time.
-KOKKOS_INLINE_FUNCTION bool wasFoundLate(const Plane& plane, bool inContact)
-{
-  return plane.isNew() && !plane.declared && !plane.isBorn() && inContact;
-}
-
 /// Steps E and F: whether a pair that shares enough area touches, for which it becomes a plane if
 /// it is none yet.
 /// @param gap at the end of the step, deepest: where the faces are deepest in each other, motion:
@@ -546,20 +290,6 @@ KOKKOS_INLINE_FUNCTION bool touches(Plane& plane, const Vec3& normal, Real gap, 
   return !plane.isRefused();
 }
 
-/// Gershgorin's circles bound the stiffness at a node by the sum along its row, which is at most
-/// twice its own part, as the weights of either face sum to 1; a millionth more than round-off.
-constexpr Real rowSum = 2.000002;
-/// A node's part of a patch that is uniform or mildly uneven, times the number of nodes [-]: it is
-/// 1 for one that is uniform.
-constexpr Real unevenShare = 1.5;
-
-/// The most that a node of faces with so many corners has of an overlap [-].
-KOKKOS_FORCEINLINE_FUNCTION Real shareOfOverlap(int countA, int countB)
-{
-  const int fewer = countA < countB ? countA : countB;
-  return unevenShare / fewer < 1 ? unevenShare / fewer : 1.0;
-}
-
 /// By which a stiffness per area bounds what a node of the pair feels: 2 A |w|. The overlap's part
 /// of a node covers patches that are not very uneven, and the weights of the area in contact cover
 /// the others [m^2].
@@ -574,38 +304,11 @@ KOKKOS_INLINE_FUNCTION T areaOfNode(const PatchOf<T>& patch, int countA, int cou
          branchFree::larger(patch.overlap * shareOfOverlap(countA, countB), patch.area * most);
 }
 
-/// Where the face in lane i is, without its motion.
-template <class T>
-KOKKOS_INLINE_FUNCTION HalfStepFace placeOf(const HalfStepFaceOf<T>& from, int i)
-{
-  HalfStepFace face;
-  face.count = from.count;
-  for (int k = 0; k < from.count; ++k)
-    face.x[k] = branchFree::lane(from.x[k], i);
-  face.center = branchFree::lane(from.center, i);
-  face.normal = branchFree::lane(from.normal, i);
-  face.area = branchFree::lane(from.area, i);
-  return face;
-}
-
-/// Where the face in lane i was a step ago; face: at the end of the step.
-template <int Dim, class T>
-KOKKOS_INLINE_FUNCTION HalfStepFace placeBefore(const HalfStepFaceOf<T>& face, int i, Real dt)
-{
-  FaceNodes nodes;
-  nodes.count = face.count;
-  for (int k = 0; k < face.count; ++k)
-    nodes.x[k] = branchFree::lane(face.x[k], i) - dt * branchFree::lane(face.v[k], i);
-  return stepA_faceAtEnd<Dim>(nodes);
-}
-
 /// The energy of a pair, whose way out is asked for, needs a bound from which its faces oppose each
 /// other [-]. Forces along the common normal have none: one that leaves out faces at right angles
 /// only.
 constexpr Real opposedForWayOut = 1e-3;
-/// PairPotential::wayOut falls from 1, where the least way out leads along the normal, to 0, where
-/// it leads along the plane: below the middle it is the one along the plane [-].
-constexpr Real alongThePlane = 0.5;
+
 /// PairPotential::wayOut where all ways out are as long: cubes that meet corner on corner share a
 /// square as deep as it is wide, two strips, rho = 2^(-5/4) = 0.4204. From here on the way along
 /// the normal is no longer than the others, so one of the pairs of a corner always holds [-].
@@ -635,28 +338,6 @@ KOKKOS_INLINE_FUNCTION bool leavesSideways(const Plane& plane, const HalfStepFac
   EnergyDensity<Real> density;
   pair.press(1, 0, density);
   return pair.wayOut < wayOutOfCorners(scale);
-}
-
-/// A pair whose shadows share nothing in this cycle.
-KOKKOS_INLINE_FUNCTION void passBy(Plane& plane, const HalfStepFace& a, const HalfStepFace& b,
-                                   Real dt)
-{
-  openUp(plane, a, b, dt);
-  plane.overlap = 0;
-  plane.unseen = false;
-  plane.nodeStiffness = 0;
-  plane.sighting = Sighting::Known;
-  plane.refusal = Refusal::None;
-}
-
-/// Pairs sleep when passing by changes nothing more of them.
-KOKKOS_INLINE_FUNCTION Activity activityOf(const Plane& plane)
-{
-  if (plane.area > 0 || plane.nodeStiffness > 0)
-    return Activity::Loaded;
-  if (plane.sighting != Sighting::Known || plane.isRefused())
-    return Activity::Awake;
-  return plane.overlap > 0 || plane.unseen ? Activity::Apart : Activity::Asleep;
 }
 
 /// Round-off of a gap, as a fraction of the size of the overlap [-]: faces that lie on each other
