@@ -166,7 +166,8 @@ void demandSameRun(const CheckpointReader& checkpoint, const Deck& deck, const M
         ExitCode::Checkpoint,
         "{}: the deck {} is not that of the checkpoint: {}. What may change at a restart "
         "are title, mesh (its path), time.end, time.end_at_rest, time.energy_tolerance, "
-        "time.contact_gain_tolerance, contact.lost_contact, output, history.every, history.file, history.tables, "
+        "time.contact_gain_tolerance, contact.lost_contact, output, history.every, history.file, "
+        "history.tables, "
         "checkpoint and partition, and what a stage may change, beside stages to come. {} Restart "
         "with the deck that the checkpoint was written with, or start without --restart.",
         checkpoint.file(), deck.file, fmt::join(firstOf(changes.refused), "; "),

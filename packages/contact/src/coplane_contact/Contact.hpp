@@ -3,12 +3,12 @@
 #include <coplane_checkpoint/StateTables.hpp>
 #include <coplane_contact/ContactRules.hpp>
 #include <coplane_contact/EndedPlanes.hpp>
-#include <coplane_contact/PairLife.hpp>
 #include <coplane_contact/FaceTable.hpp>
 #include <coplane_contact/Faces.hpp>
 #include <coplane_contact/ForceSums.hpp>
 #include <coplane_contact/NearPairs.hpp>
 #include <coplane_contact/PairDistances.hpp>
+#include <coplane_contact/PairLife.hpp>
 #include <coplane_contact/PairedFaces.hpp>
 #include <coplane_contact/Plane.hpp>
 #include <coplane_contact/PlaneTable.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <coplane_contact/ContactPotential.hpp>
 #include <coplane_contact/CommonNormalKernel.hpp>
+#include <coplane_contact/ContactPotential.hpp>
 #include <coplane_contact/detail/BentBonds.hpp>
 #include <coplane_contact/detail/LostEnergies.hpp>
 #include <coplane_contact/detail/UnevenlyCrushed.hpp>
