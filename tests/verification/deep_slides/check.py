@@ -1,7 +1,7 @@
 """Contacts that are closed by tenths of an element and slide over lines of the mesh, to and fro: none of them lets go."""
 
 import numpy
-from coplanetest import Case
+from coplanetest import Case, program
 from coplanetest.slides import slid_block
 
 case = Case("deep_slides", __file__)
@@ -108,4 +108,35 @@ gone = force[-1] < 0.3 * force.max()
 case.check_equal("punch to 0.7, slid on, fine: ends with code 6 if it goes through", stopped.code, 6 if gone else 0)
 case.check_equal("punch to 0.7, slid on, fine: told to go on, it does", run.code, 0)
 case.check_equal("punch to 0.7, slid on, fine: and says that it goes through", "go through each other" in run.output, gone)
+# The end is the same on other ranks and threads, and after a restart between the looks that decide.
+deck["contact"]["lost_contact"] = "stop"
+last = int(stopped.history["cycle"][-1])
+others = {"3 ranks": {"ranks": 3}, "2 threads": {"threads": 2, "backend": "threads"}, "a restart": {"options": ["--set", "checkpoint.every_cycles=50"]}}
+for words, how in others.items():
+    again = case.attempt(f"punch to 0.7, slid on, fine, {words}", mesh, deck, **how)
+    if words == "a restart":
+        code, output = program.run_program(["run.yaml", "--restart"], again.folder)
+        case.check_equal("punch to 0.7, slid on, fine, a restart: goes on from the last checkpoint", f": cycle {(last - 1) // 50 * 50}, t = " in output, True)
+        case.check_equal("punch to 0.7, slid on, fine, a restart: ends with code 6", code, 6)
+        case.check_equal("punch to 0.7, slid on, fine, a restart: in the same cycle", f"cycle {last}, " in output, True)
+        continue
+    case.check_equal(f"punch to 0.7, slid on, fine, {words}: exit code", again.code, stopped.code)
+    case.check_equal(f"punch to 0.7, slid on, fine, {words}: last cycle", int(again.history["cycle"][-1]), last)
+# What lies in another body by design is not lost: embedded bodies that fall and turn together, a block that a stage adds, an excluded pair.
+turn = [{"block": name, "angular_velocity": [0, 0, 5], "center": [0.5, 0.5, 0]} for name in ("big", "inner")]
+box = {"shape": "box", "block": "inner", "min": [0.3, 0.3], "size": [0.4, 0.4], "divisions": [7, 7], "rotate": 31}
+parts = [{"shape": "box", "block": "big", "min": [0, 0], "size": [1, 1], "divisions": [10, 10], "rotate": 13}, box]
+rubber = {"rubber": {"model": "neo_hookean", "density": 1000, "youngs_modulus": 1e6, "poisson_ratio": 0.3}}
+both = {name: {"material": "rubber"} for name in ("big", "inner")}
+common = {"materials": rubber, "blocks": both, "gravity": [0, -9.81, 0], "time": {"end": 1.5}, "output": {"planes": False}}
+designs = {
+    "embedded, turned": common | {"contact": {"initial_overlap": "allow"}, "initial": turn},
+    "added by a stage": common | {"stages": [{"name": "first", "until": 0.1}, {"name": "second", "add": ["inner"]}]},
+    "excluded": common | {"contact": {"pairs": [{"blocks": ["big", "inner"], "excluded": True}]}},
+}
+for words, deck in designs.items():
+    run = case.attempt(f"in each other, {words}", {"dimension": 2, "parts": parts}, deck)
+    case.check_equal(f"in each other, {words}: exit code", run.code, 0)
+    case.check_equal(f"in each other, {words}: was looked at more than twice", bool(run.history["cycle"][-1] > 300), True)
+    case.check_equal(f"in each other, {words}: no face is called lost", "faces lie in other bodies" in run.output, False)
 case.finish()

@@ -50,19 +50,18 @@ std::map<int, Real> volumesOf(const std::vector<int>& bodies, const Contact& con
 std::vector<InitialOverlap> byBlocks(const std::vector<PointInBody>& inside,
                                      const std::map<int, Real>& volumes)
 {
-  struct BodyPair
+  struct Sums
   {
     Real volume[2] = {0, 0}, facingVolume[2] = {0, 0};
     std::set<GlobalId> faces;
     const PointInBody* deepest = nullptr;
   };
-  std::map<std::array<int, 4>, BodyPair> pairs; // blocks, bodies
+  std::map<std::array<int, 4>, Sums> pairs; // blocks, bodies
   for (const PointInBody& one : inside)
   {
     const int side = one.body[0] < one.body[1] ? 0 : 1;
-    BodyPair& pair =
-        pairs[{std::min(one.block[0], one.block[1]), std::max(one.block[0], one.block[1]),
-               one.body[side], one.body[1 - side]}];
+    Sums& pair = pairs[{std::min(one.block[0], one.block[1]), std::max(one.block[0], one.block[1]),
+                        one.body[side], one.body[1 - side]}];
     pair.volume[side] += one.depth * one.area;
     pair.facingVolume[side] += one.depth * one.area * one.opposing;
     pair.faces.insert(one.faceId[0]);

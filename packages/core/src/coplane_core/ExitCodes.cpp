@@ -20,8 +20,7 @@ const std::vector<ExitCodeMeaning>& exitCodes()
       {ExitCode::Computation, "user",
        "the computation failed: an element turned inside out, something is not finite or absurdly "
        "large, the energy balance is broken, bodies go through each other; no gap of a joint "
-       "balances "
-       "its compression",
+       "balances its compression",
        "`coplane`, `coplane_point`"},
       {ExitCode::Interrupted, "", "stopped by a signal, after a last results step", "`coplane`"},
       {ExitCode::Resumable, "", "stopped on request after a checkpoint: `--restart` goes on",

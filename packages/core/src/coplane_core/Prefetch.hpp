@@ -8,7 +8,8 @@ namespace coplane
 {
 namespace detail
 {
-/// Lines from the address on; what begins within a line may end one line further.
+/// A line of the cache for every 64 bytes from the address on. The last line of what does not begin
+/// with one may be left out.
 template <int toWrite, class T>
 KOKKOS_FORCEINLINE_FUNCTION void prefetchLines(const T* from, std::size_t count)
 {

@@ -115,18 +115,17 @@ KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::refuse(Plane& plane, in
     depth = -leastGaps_[i];
   if (!(depth > start))
     return;
-  const bool isNews = mayGrow(plane);
-  plane.refusal = Refusal::Deep;
   // What begins with little of its area, or hardly opposed, begins with little energy, however
   // deep it lies. Where the surface goes on it has come from beside, or rolled on.
   if constexpr (width == 1)
-    if (comesFromTheSide && isNews && !crushes_[i] && deepest_ < plane.deepestToGrow() &&
+    if (comesFromTheSide && mayGrow(plane) && !crushes_[i] && deepest_ < plane.deepestToGrow() &&
         beginsLittle() && pair_.isWithinASurface())
     {
-      plane.refusal = Refusal::None;
       plane.pairAs(plane.isShallow(), true);
       pair_.growIn();
+      return;
     }
+  plane.refusal = Refusal::Deep;
 }
 
 template <int Dim, class T>
