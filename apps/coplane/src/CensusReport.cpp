@@ -81,6 +81,23 @@ std::string linesOf(const std::vector<InitialOverlap>& overlaps, const Solver& s
     lines.push_back(fmt::format("  and {} more pairs of blocks", overlaps.size() - named));
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
+
+void reportUnevenGaps(const Contact& contact, const ContactCensus& c)
+{
+  if (c.uneven == 0)
+    return;
+  if (contact.options().forces == ContactOptions::Forces::Potential)
+    logInfo("    {} of these planes absorb gaps that change along the faces, by up to {:.3e} m",
+            c.uneven, c.changeOfGap);
+  else
+    logWarning(
+        "joints of faces that are not parallel",
+        fmt::format("the gaps of {} planes of declared joints change along the faces, by up "
+                    "to {:.3e} m. Forces along the common normal absorb only their means: "
+                    "the joints push at the start. Take contact.forces: potential, or a mesh "
+                    "that has the same faces on both sides.",
+                    c.uneven, c.changeOfGap));
+}
 } // namespace
 
 void reportMirrors(const Mirrors& mirrors)
@@ -114,6 +131,7 @@ void reportCensus(const Contact& contact)
           "only neighbour each other",
           c.declaredClosed, c.bonded, c.declaredWithoutOverlap);
   printLengths(c.joints, "gaps of the mesh that are absorbed", "gap", contact.skin());
+  reportUnevenGaps(contact, c);
   if (c.lonelyFaces > 0)
   {
     std::vector<std::string> names;

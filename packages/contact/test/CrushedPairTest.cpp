@@ -1,4 +1,5 @@
-// Pairs of faces whose joint is crushed unevenly: energy, gradient, what crushing costs.
+// Pairs of faces whose joint is crushed unevenly, or has absorbed an uneven gap: energy, gradient,
+// what crushing costs.
 #include "BalancedForces.hpp"
 
 #include <gtest/gtest.h>
@@ -13,6 +14,13 @@ namespace
 {
 using namespace facepairs;
 
+/// What is uneven in the joint of a pair.
+struct Uneven
+{
+  const LinearOnFace* crushing = nullptr;
+  const LinearOnFace* laid = nullptr; ///< for both faces
+};
+
 /// Energy and gradient of a pair that is crushed.
 template <int Dim>
 struct Crushed
@@ -20,7 +28,7 @@ struct Crushed
   Real energy = 0, share = 1, mean = 0, area = 0;
   Vec3 gradient[2][4];
 
-  Crushed(const FaceNodes& a, const FaceNodes& b, const UnevenCrushing* crushing, Real offset,
+  Crushed(const FaceNodes& a, const FaceNodes& b, const Uneven& joint, Real offset,
           unsigned exits = 0, bool sharing = false)
   {
     const HalfStepFace faceA = stepA_faceAtEnd<Dim>(a), faceB = stepA_faceAtEnd<Dim>(b);
@@ -33,8 +41,10 @@ struct Crushed
     EdgesOf<Real> edges;
     for (int e = 0; e < 8; ++e)
       edges.exits[e] = edges.turns[e] = exits >> e & 1;
-    if (crushing != nullptr)
-      pair.beCrushed(*crushing);
+    if (joint.laid != nullptr)
+      pair.lay(joint.laid[0], joint.laid[1]);
+    if (joint.crushing != nullptr)
+      pair.beCrushed(*joint.crushing);
     pair.meet(offset, false, edges);
     if (!(pair.moments.volume > 0))
       return;
@@ -42,7 +52,7 @@ struct Crushed
     const Real stored = pair.press(1, 0, density);
     share = pair.wayOut;
     area = pair.moments.area;
-    if (crushing != nullptr)
+    if (joint.crushing != nullptr)
       mean = pair.meanCrushing();
     pair.growFrom(1.3, .8);
     pair.differentiate(stored, density);
@@ -55,9 +65,9 @@ struct Crushed
 
 /// Largest difference between the gradient and central differences, over the largest entry.
 template <int Dim>
-Real errorOfGradient(const RandomPair& pair, const UnevenCrushing& crushing, unsigned exits = 0)
+Real errorOfGradient(const RandomPair& pair, const Uneven& joint, unsigned exits = 0)
 {
-  const Crushed<Dim> e(pair.a, pair.b, &crushing, 0, exits);
+  const Crushed<Dim> e(pair.a, pair.b, joint, 0, exits);
   Real largest = 0, worst = 0;
   for (int f = 0; f < 2; ++f)
     for (int i = 0; i < (f == 0 ? pair.a : pair.b).count; ++i)
@@ -68,7 +78,7 @@ Real errorOfGradient(const RandomPair& pair, const UnevenCrushing& crushing, uns
         {
           FaceNodes faces[2] = {pair.a, pair.b};
           faces[f].x[i][c] += h;
-          return Crushed<Dim>(faces[0], faces[1], &crushing, 0, exits).energy;
+          return Crushed<Dim>(faces[0], faces[1], joint, 0, exits).energy;
         };
         const Real h = 2e-6;
         const Real slope = (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h);
@@ -79,13 +89,19 @@ Real errorOfGradient(const RandomPair& pair, const UnevenCrushing& crushing, uns
 
 /// Crushing of the size of the closures of random pairs, of one sign or both; or steeper, and
 /// nothing somewhere in the strip.
-UnevenCrushing someCrushing(std::mt19937& random, bool steep)
+LinearOnFace someCrushing(std::mt19937& random, bool steep)
 {
   std::uniform_real_distribution<Real> u(-1, 1);
   if (!steep)
     return {.05 * u(random), {.1 * u(random), .1 * u(random)}};
   const Real along = .6 * u(random);
   return {(.45 + .05 * u(random)) * along, {along, .6 * u(random)}};
+}
+
+LinearOnFace someLayer(std::mt19937& random, Real size)
+{
+  std::uniform_real_distribution<Real> u(-size, size);
+  return {.5 * u(random), {u(random), u(random)}};
 }
 
 template <int Dim>
@@ -125,7 +141,7 @@ RandomPair someStrip(std::mt19937& random)
 }
 
 template <int Dim>
-void expectGradients(Real warp, bool exits)
+void expectGradients(Real warp, bool exits, bool isCrushed = true, bool isLaid = false)
 {
   std::mt19937 random(21);
   int mixed = 0, kinds[2][2] = {};
@@ -133,24 +149,32 @@ void expectGradients(Real warp, bool exits)
   {
     ASSERT_LT(tried, 100000);
     const RandomPair pair = exits ? someStrip<Dim>(random) : somePair<Dim>(random, warp);
-    const UnevenCrushing crushing = someCrushing(random, exits);
+    const LinearOnFace crushing = someCrushing(random, exits);
     const unsigned edges = !exits ? 0 : Dim == 2 ? 1u << 0 | 1u << 4 : unsigned(random() & 255);
-    const Crushed<Dim> e(pair.a, pair.b, &crushing, 0, edges);
-    const Crushed<Dim> whole(pair.a, pair.b, nullptr, 0, edges);
-    if (!(e.energy > 1e-5) || !(e.energy < .98 * whole.energy))
+    LinearOnFace laid[2];
+    for (int f = 0; f < 2 && isLaid; ++f)
+      laid[f] = someLayer(random, exits ? .02 : .1);
+    const Uneven joint{isCrushed ? &crushing : nullptr, isLaid ? laid : nullptr};
+    const Crushed<Dim> e(pair.a, pair.b, joint, 0, edges);
+    const Crushed<Dim> whole(pair.a, pair.b, {nullptr, joint.laid}, 0, edges);
+    if (!(e.energy > 1e-5) || !(e.energy < .98 * whole.energy || !isCrushed))
       continue;
     if (exits && !(e.share > .02 && e.share < .98))
       continue;
     ++pairs;
-    const UnevenCrushing opposite{-crushing.atCenter, {-crushing.along[0], -crushing.along[1]}};
-    mixed += e.mean > 1e-4 && Crushed<Dim>(pair.a, pair.b, &opposite, 0, edges).mean > 1e-4;
+    const LinearOnFace opposite{-crushing.atCenter, {-crushing.along[0], -crushing.along[1]}};
+    mixed += e.mean > 1e-4 &&
+             Crushed<Dim>(pair.a, pair.b, {&opposite, joint.laid}, 0, edges).mean > 1e-4;
     ++kinds[pair.a.count == 3][pair.b.count == 3];
-    EXPECT_LT(errorOfGradient<Dim>(pair, crushing, edges), 1e-6)
+    EXPECT_LT(errorOfGradient<Dim>(pair, joint, edges), 1e-6)
         << "pair " << pairs << " share " << e.share;
 
     expectBalanced(pair, e.gradient);
   }
-  EXPECT_GT(mixed, 30);
+  if (isCrushed)
+  {
+    EXPECT_GT(mixed, 30);
+  }
   if constexpr (Dim == 3)
     for (const auto& of : kinds)
       for (const int kind : of)
@@ -176,12 +200,12 @@ TEST(CrushedPair, evenCrushingIsAnOffset)
   while (pairs < 200)
   {
     const RandomPair pair = randomPair(random, .1);
-    const Crushed<3> offset(pair.a, pair.b, nullptr, -.03, 0, true);
+    const Crushed<3> offset(pair.a, pair.b, {}, -.03, 0, true);
     if (!(offset.energy > 1e-5))
       continue;
     ++pairs;
-    const UnevenCrushing even{.03, {0, 0}};
-    const Crushed<3> crushed(pair.a, pair.b, &even, 0, 0, true);
+    const LinearOnFace even{.03, {0, 0}};
+    const Crushed<3> crushed(pair.a, pair.b, {&even, nullptr}, 0, 0, true);
     EXPECT_NEAR(crushed.energy, offset.energy, 1e-12 * offset.energy);
     Real largest = 0;
     for (int f = 0; f < 2; ++f)
@@ -196,6 +220,45 @@ TEST(CrushedPair, evenCrushingIsAnOffset)
 TEST(CrushedPair, gradientInTwoDimensions)
 {
   expectGradients<2>(0, false);
+}
+
+TEST(CrushedPair, gradientOfOneThatHasAbsorbedAnUnevenGap)
+{
+  for (const bool isCrushed : {false, true})
+    for (const bool exits : {false, true})
+    {
+      SCOPED_TRACE(::testing::Message() << "crushed " << isCrushed << " exits " << exits);
+      expectGradients<2>(0, exits, isCrushed, true);
+      expectGradients<3>(.05, exits, isCrushed, true);
+    }
+}
+
+TEST(CrushedPair, anUnevenGapThatIsAbsorbedLeavesTheClosureEven)
+{
+  std::mt19937 random(23);
+  int pairs = 0;
+  while (pairs < 200)
+  {
+    const RandomPair pair = randomPair(random, .1);
+    const HalfStepFace a = stepA_faceAtEnd<3>(pair.a), b = stepA_faceAtEnd<3>(pair.b);
+    PairPotential<3, Real> before(a, b, ContactPotentialScale(.1));
+    if (!before.plane.opposed)
+      continue;
+    before.meet(0, true, {});
+    if (!(before.moments.area > .1))
+      continue;
+    ++pairs;
+    LinearOnFace laid[2];
+    const Vec2 centroid = (1 / before.moments.area) * before.moments.areaMoment;
+    EXPECT_GT(before.unevenGap(centroid, laid), 1e-4);
+    const Real gap = -before.moments.volume / before.moments.area;
+    PairPotential<3, Real> after(a, b, ContactPotentialScale(.1));
+    after.lay(laid[0], laid[1]);
+    after.meet(gap + .01, false, {});
+    EXPECT_NEAR(after.mostClosure, .01, 1e-14);
+    EXPECT_NEAR(after.leastClosure(), .01, 1e-14);
+    EXPECT_NEAR(after.moments.area, before.moments.area, 1e-12);
+  }
 }
 
 TEST(CrushedPair, gradientWhereAWayOutIsNear)

@@ -18,8 +18,9 @@ struct Ring
   std::array<Real, 2> birth = {7, 4}; // areas [m^2]
   Real offset = 0, inverseDepth = 0;
   unsigned exits = 0;
-  const UnevenCrushing* crushing = nullptr;
-  bool bonded = false; // by its mean closure
+  const LinearOnFace* crushing = nullptr;
+  const LinearOnFace* laid = nullptr; // for both faces
+  bool bonded = false;                // by its mean closure
   bool sharing = false;
 };
 
@@ -40,6 +41,8 @@ struct OfRing
     EdgesOf<Real> edges;
     for (int e = 0; e < 8; ++e)
       edges.exits[e] = edges.turns[e] = ring.exits >> e & 1;
+    if (ring.laid != nullptr)
+      pair.lay(ring.laid[0], ring.laid[1]);
     if (ring.crushing != nullptr)
       pair.beCrushed(*ring.crushing);
     pair.meet(ring.offset, ring.bonded, edges);
@@ -124,7 +127,7 @@ RandomPair someRings(std::mt19937& random, bool strip)
   return {face({{1, 0, 0}, {0, 0, 0}}), face({{1 - width, -.05, 0}, {2, -.05 + turn, 0}})};
 }
 
-void expectRingGradients(bool strip, const Ring& ring, bool crushed = false)
+void expectRingGradients(bool strip, const Ring& ring, bool crushed = false, bool isLaid = false)
 {
   std::mt19937 random(31);
   std::uniform_real_distribution<Real> u(-1, 1);
@@ -134,9 +137,13 @@ void expectRingGradients(bool strip, const Ring& ring, bool crushed = false)
     ASSERT_LT(tried, 100000);
     const Real radius = pairs % 4 == 0 ? 0 : pairs % 4 == 1 ? .01 : .5 * (1 + u(random));
     const RandomPair pair = placed(someRings(random, strip), pi * u(random), radius);
-    const UnevenCrushing crushing{.05 * u(random), {.1 * u(random), 0}};
+    const LinearOnFace crushing{.05 * u(random), {.1 * u(random), 0}};
     Ring with = ring;
     with.crushing = crushed ? &crushing : nullptr;
+    LinearOnFace laid[2];
+    for (int f = 0; f < 2 && isLaid; ++f)
+      laid[f] = {.05 * u(random), {.1 * u(random), 0}};
+    with.laid = isLaid ? laid : nullptr;
     const OfRing e(pair, with);
     if (!(e.energy > 1e-5))
       continue;
@@ -231,6 +238,17 @@ TEST(RingPotential, gradientOfWhatIsCrushed)
   Ring strip;
   strip.exits = 1u << 0 | 1u << 4;
   expectRingGradients(true, strip, true);
+}
+
+TEST(RingPotential, gradientOfOneThatHasAbsorbedAnUnevenGap)
+{
+  Ring strip;
+  strip.exits = 1u << 0 | 1u << 4;
+  for (const bool crushed : {false, true})
+  {
+    expectRingGradients(false, {}, crushed, true);
+    expectRingGradients(true, strip, crushed, true);
+  }
 }
 
 TEST(RingPotential, gradientOfABond)

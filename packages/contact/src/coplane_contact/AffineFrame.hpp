@@ -61,12 +61,12 @@ struct AffineFrame
     return weightChange(node, 0) * dual[0] + weightChange(node, 1) * dual[1];
   }
 
-  KOKKOS_INLINE_FUNCTION LinearOnPlane onPlane(const UnevenCrushing& crushing) const
+  KOKKOS_INLINE_FUNCTION LinearOnPlane onPlane(const LinearOnFace& crushing) const
   {
     const Vec2 slope = crushing.along[0] * dual[0] + crushing.along[1] * dual[1];
     return {crushing.atCenter - dot(slope, center), slope};
   }
-  KOKKOS_INLINE_FUNCTION UnevenCrushing onFace(const LinearOnPlane& crushing) const
+  KOKKOS_INLINE_FUNCTION LinearOnFace onFace(const LinearOnPlane& crushing) const
   {
     return {crushing.at(center), {dot(crushing.slope, axis[0]), dot(crushing.slope, axis[1])}};
   }

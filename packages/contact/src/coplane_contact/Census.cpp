@@ -100,6 +100,7 @@ struct Survey
     Pairs,
     Closed,
     Bonded,
+    Uneven,
     Neighbours,
     Touching,
     Overlapping,
@@ -110,7 +111,7 @@ struct Survey
     Counts
   };
   std::vector<std::int64_t> n;
-  std::vector<Real> stiffness{-infinity, 0}; ///< -least, largest
+  std::vector<Real> most{-infinity, 0, 0}; ///< -least stiffness, largest; change of a gap
   std::vector<Entry> joints, overlaps, gaps;
   std::vector<char> declared, closed; ///< faces: of declared joints, of closed planes
   Real roundOff;                      ///< of gaps [m]
@@ -145,14 +146,17 @@ private:
     n[Open] += plane.state == PlaneState::Open;
     n[Stick] += plane.state == PlaneState::Stick;
     n[Slip] += plane.state == PlaneState::Slip;
-    stiffness[0] = std::max(stiffness[0], -plane.fit.normalStiffness);
-    stiffness[1] = std::max(stiffness[1], plane.fit.normalStiffness);
+    most[0] = std::max(most[0], -plane.fit.normalStiffness);
+    most[1] = std::max(most[1], plane.fit.normalStiffness);
     const CensusLengths::Pair pair{{plane.faceId[0], plane.faceId[1]}, plane.gap};
     if (plane.declared)
     {
       ++n[Closed];
       n[Bonded] += plane.history.bonded;
-      joints.push_back({pair, std::abs(plane.gap)});
+      n[Uneven] += plane.history.absorbedUnevenly;
+      most[2] = std::max(most[2], plane.changeOfGap());
+      const Real absorbed = plane.offset - plane.closure;
+      joints.push_back({{{pair.faceId[0], pair.faceId[1]}, absorbed}, std::abs(absorbed)});
     }
     else if (joint)
       ++n[Neighbours];
@@ -206,11 +210,12 @@ ContactCensus census(const Contact& contact)
   Survey survey(contact);
   const std::vector<std::int64_t>& n = survey.n;
   contact.comm().sum(survey.n);
-  contact.comm().max(survey.stiffness);
+  contact.comm().max(survey.most);
   ContactCensus census;
   census.pairs = n[Survey::Pairs];
   census.declaredClosed = n[Survey::Closed];
   census.bonded = n[Survey::Bonded];
+  census.uneven = n[Survey::Uneven];
   census.declaredWithoutOverlap = n[Survey::Neighbours];
   census.touching = n[Survey::Touching];
   census.overlapping = n[Survey::Overlapping];
@@ -218,8 +223,9 @@ ContactCensus census(const Contact& contact)
   census.open = n[Survey::Open];
   census.stick = n[Survey::Stick];
   census.slip = n[Survey::Slip];
-  census.leastStiffness = -survey.stiffness[0];
-  census.largestStiffness = survey.stiffness[1];
+  census.leastStiffness = -survey.most[0];
+  census.largestStiffness = survey.most[1];
+  census.changeOfGap = survey.most[2];
   census.joints = lengthsOf(std::move(survey.joints), contact.comm());
   census.overlaps = lengthsOf(std::move(survey.overlaps), contact.comm());
   census.gaps = lengthsOf(std::move(survey.gaps), contact.comm());

@@ -34,6 +34,8 @@ struct ContactCensus
   std::int64_t pairs = 0;                  ///< candidates
   std::int64_t declaredClosed = 0;         ///< planes of declared joints
   std::int64_t bonded = 0;                 ///< of them
+  std::int64_t uneven = 0;                 ///< of them, whose gap changes along the faces
+  Real changeOfGap = 0;                    ///< the most that it changes over a face [m]
   std::int64_t declaredWithoutOverlap = 0; ///< pairs of such joints that only neighbour each other
   std::int64_t touching = 0;               ///< other pairs whose faces meet, but for round-off
   std::int64_t overlapping = 0; ///< others that lie on each other (26 degrees) and overlap

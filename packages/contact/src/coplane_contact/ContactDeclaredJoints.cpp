@@ -18,42 +18,51 @@ Vec3 traction(const SymTensor& s, const Vec3& n)
           s.zx * n.x + s.yz * n.y + s.zz * n.z};
 }
 
-/// The whole overlap of two faces as the potential sees it; returns the mean gap [m].
-template <int Dim>
-Real wholeOverlap(const HalfStepFace& a, const HalfStepFace& b, const ContactOptions& options,
-                  Patch& patch)
-{
-  PairPotential<Dim, Real> pair(a, b, ContactPotentialScale(options));
-  if (!pair.plane.opposed)
-    return 0;
-  pair.meet(0, true, {});
-  patch.overlap = pair.overlap * pair.depth;
-  pair.oppose(0);
-  patch.area = pair.opposedness * pair.moments.area;
-  if (!(patch.area > 0))
-    return 0;
-  patch.centroid = (1 / pair.moments.area) * pair.moments.areaMoment;
-  pair.weightsAt(patch.centroid, patch.centroidWeights);
-  return -pair.moments.volume / pair.moments.area;
-}
 /// What two faces share, as the forces see it, and their gap there [m].
 struct Overlap
 {
   Patch patch;
-  Real gap = 0;
+  Real gap = 0;           ///< its mean
+  LinearOnFace uneven[2]; ///< the gap at a place is the mean less these, one for each face
+  bool even = true;       ///< but for round-off
 };
+
+/// The whole overlap of two faces as the potential sees it; without area, that of faces beside
+/// each other, whose gap is the one between their centres.
+template <int Dim>
+Overlap wholeOverlap(const HalfStepFace& a, const HalfStepFace& b, const ContactOptions& options)
+{
+  constexpr Real roundOff = 1e-9; // of the size of a face
+  Overlap overlap;
+  Patch& patch = overlap.patch;
+  PairPotential<Dim, Real> pair(a, b, ContactPotentialScale(options));
+  if (!(-dot(a.normal, b.normal) > opposedBesideJoint))
+    return overlap;
+  pair.meet(0, true, {});
+  patch.overlap = pair.overlap * pair.depth;
+  pair.oppose(0);
+  patch.area = pair.opposedness * pair.moments.area;
+  patch.centroid = pair.betweenCenters();
+  overlap.gap = -pair.closureAt(patch.centroid);
+  if (patch.area > 0)
+  {
+    patch.centroid = (1 / pair.moments.area) * pair.moments.areaMoment;
+    pair.weightsAt(patch.centroid, patch.centroidWeights);
+    overlap.gap = -pair.moments.volume / pair.moments.area;
+  }
+  overlap.even = !(pair.unevenGap(patch.centroid, overlap.uneven) >
+                   roundOff * faceSize(std::min(a.area, b.area), Dim));
+  return overlap;
+}
 
 template <int Dim>
 Overlap overlapOf(const TrialPlane& trial, const HalfStepFace& a, const HalfStepFace& b,
                   const ContactOptions& options)
 {
-  Overlap overlap;
-  Patch& patch = overlap.patch;
   if (options.forces == ContactOptions::Forces::Potential)
-  {
-    overlap.gap = wholeOverlap<Dim>(a, b, options, patch);
-    return overlap;
-  }
+    return wholeOverlap<Dim>(a, b, options);
+  Overlap overlap = wholeOverlap<Dim>(a, b, options); // for what is uneven, which is told
+  Patch& patch = overlap.patch;
   patch = stepD_areaOfContact<Dim>(stepC_projectOntoPlane<Dim>(trial, a, 0),
                                    stepC_projectOntoPlane<Dim>(trial, b, 0), 0, AreaInUse::Bonded,
                                    ContactOptions::Weights::Centroid, depthOf(trial, options));
@@ -102,38 +111,52 @@ Real closeUnder(const SymTensor& stress, Real pressure, const JointLaw& law, Rea
 struct DeclaredPlane
 {
   Real area = 0; ///< [m^2], 0 if they do not
+  /// Without area: they lie beside each other, as the next faces on both sides of a joint do, and
+  /// their gap is uneven. What they come to share is a part of the joint.
+  bool beside = false;
   Vec3 normal{};
   Overlap overlap;
   Vec3 pointOfContact{};
 };
 
+/// @param covered one of the faces coincides with another one: they lie beside each other at most
 template <int Dim>
-DeclaredPlane declaredPlane(const FaceNodes& nodesA, const FaceNodes& nodesB,
+DeclaredPlane declaredPlane(const FaceNodes& nodesA, const FaceNodes& nodesB, bool covered,
                             const ContactOptions& options)
 {
+  constexpr Real roundOff = 1e-9; // of a normal
   const HalfStepFace a = stepA_halfStepFace<Dim>(nodesA, 0), b = stepA_halfStepFace<Dim>(nodesB, 0);
+  if (covered && norm(a.normal + b.normal) < roundOff)
+    return {};
   const TrialPlane trial = stepB_trialPointOfContact<Dim>(a, b);
   if (!trial.opposed)
     return {};
   const Overlap overlap = overlapOf<Dim>(trial, a, b, options);
   const Patch& patch = overlap.patch;
   const Real smaller = std::min(a.area, b.area);
-  if (!(patch.area > options.areaMin * smaller * depthOf(trial, options).at(patch.centroid.x)) ||
-      !lieOnEachOther(dot(a.normal, b.normal), overlap.gap, faceSize(smaller, Dim)))
-    return {};
-  return {patch.area, trial.normal, overlap, stepG_placePointOfContact(patch, a, b)};
+  const Real cosine = dot(a.normal, b.normal), size = faceSize(smaller, Dim);
+  if (patch.area > options.areaMin * smaller * depthOf(trial, options).at(patch.centroid.x))
+    return covered || !lieOnEachOther(cosine, overlap.gap, size)
+               ? DeclaredPlane{}
+               : DeclaredPlane{patch.area, false, trial.normal, overlap,
+                               stepG_placePointOfContact(patch, a, b)};
+  const bool beside = !overlap.even && options.forces == ContactOptions::Forces::Potential &&
+                      lieBesideEachOther(cosine, overlap.gap, size);
+  return {0, beside, trial.normal, overlap, 0.5 * (a.center + b.center)};
 }
 
 /// Without stress yet.
 void declare(const DeclaredPlane& found, Plane& plane)
 {
-  plane.declared = true;
+  plane.declared = !found.beside;
   plane.state = PlaneState::Open;
   plane.normal = found.normal;
   plane.overlap = found.overlap.patch.overlap;
   plane.pointOfContact = found.pointOfContact;
   plane.gap = found.overlap.gap;
   plane.absorb(plane.gap);
+  for (int f = 0; f < 2 && !found.overlap.even; ++f)
+    plane.layOn(f, found.overlap.uneven[f]);
 }
 
 /// Whether two faces lie on each other corner by corner, as the two sides of a cut do.
@@ -230,12 +253,14 @@ Contact::Overpressed Contact::closeDeclaredJoints(const ConstNodeVectors& x,
     const SlotFaces& pair = planes_.slots().faces(slot);
     const Face& faceA = faces()[pair.face[0]];
     const Face& faceB = faces()[pair.face[1]];
-    if (isCoveredByOther(faceA.id, faceB.id) || isCoveredByOther(faceB.id, faceA.id))
-      continue;
+    const bool covered =
+        isCoveredByOther(faceA.id, faceB.id) || isCoveredByOther(faceB.id, faceA.id);
     const FaceNodes a = nodesOf(faceA, x), b = nodesOf(faceB, x);
-    const DeclaredPlane found =
-        dimension_ == 2 ? declaredPlane<2>(a, b, options_) : declaredPlane<3>(a, b, options_);
-    if (!(found.area > 0))
+    const DeclaredPlane found = dimension_ == 2 ? declaredPlane<2>(a, b, covered, options_)
+                                                : declaredPlane<3>(a, b, covered, options_);
+    // What slides on takes over a bond from beside, which needs no gap.
+    const int joint = rules_.between(faceA.group, faceB.group).joint;
+    if (!(found.area > 0) && !(found.beside && !rules_.joints[std::size_t(joint)].law.cohesive()))
       continue;
     Plane& plane = planes_.wake(slot); // neighbours pass on nothing to what is closed here
     declare(found, plane);

@@ -260,8 +260,12 @@ public:
         if (folded_[f].slope != 0)
           addFolded(f, rim);
     if constexpr (widthOf<T> == 1)
+    {
       if (uneven_)
         addCrushing(density, rim);
+      if (laidUnevenly_)
+        carryLaid(push, first, rim);
+    }
     if constexpr (canRevolve)
       if (scale_.axisymmetric)
         addRadii(energy, density, scale, rim);
@@ -350,14 +354,43 @@ public:
 
   KOKKOS_FORCEINLINE_FUNCTION T closureAt(const Vec2Of<T>& p) const
   {
-    return atPoint_ - (2.0 / kappa_) * dot(tilt_, p);
+    const T closure = atPoint_ - (2.0 / kappa_) * dot(tilt_, p);
+    if constexpr (branchFree::widthOf<T> == 1)
+      if (laidUnevenly_)
+        return closure - laid_.at(p);
+    return closure;
+  }
+
+  // Joints that have absorbed gaps which change along their faces (ContactPotentialCrushing.hpp),
+  // T = Real only.
+  /// Before meet(): the gap at which the joint is just closed at a place is the offset less these,
+  /// each carried along by its face.
+  KOKKOS_INLINE_FUNCTION void lay(const LinearOnFace& onFirst, const LinearOnFace& onSecond)
+  {
+    laidUnevenly_ = true;
+    laid_ = {};
+    for (int f = 0; f < 2; ++f)
+    {
+      layer_[f].frame = AffineFrame(shadow[f]);
+      const LinearOnPlane part = layer_[f].frame.onPlane(f == 0 ? onFirst : onSecond);
+      layer_[f].slope = part.slope;
+      laid_ = {laid_.atOrigin + part.atOrigin, laid_.slope + part.slope};
+    }
+  }
+  /// After meet(), with the offset 0: what lay() needs for a joint whose closure is the same all
+  /// over the faces as at a place, and by how much that changes over a face, at most [m].
+  KOKKOS_INLINE_FUNCTION Real unevenGap(const Vec2& place, LinearOnFace (&laid)[2]) const;
+  /// Between the centres of the faces.
+  KOKKOS_INLINE_FUNCTION Vec2 betweenCenters() const
+  {
+    return 0.5 * (AffineFrame(shadow[0]).center + AffineFrame(shadow[1]).center);
   }
 
   // Joints that are crushed unevenly (ContactPotentialCrushing.hpp), T = Real only. The closure
   // counts from where the joint is crushed to, max(0, L) with L linear over face 0, which carries
   // it along.
   /// Before meet(), whose offset then is that of the joint as it was made.
-  KOKKOS_INLINE_FUNCTION void beCrushed(const UnevenCrushing& crushing)
+  KOKKOS_INLINE_FUNCTION void beCrushed(const LinearOnFace& crushing)
   {
     uneven_ = true;
     frame_ = AffineFrame(shadow[0]);
@@ -371,10 +404,10 @@ public:
   /// @param even crushing, off the offset, of a joint that has not been crushed unevenly yet [m]
   /// @returns whether it is crushed further
   KOKKOS_INLINE_FUNCTION bool crushFurther(const Crushing& law, Real stiffness, Real even,
-                                           UnevenCrushing& to) const;
+                                           LinearOnFace& to) const;
   /// What it costs to crush it from one state to another one against the tractions of now, after
   /// press() and growFrom() [J].
-  KOKKOS_INLINE_FUNCTION Real lostBy(const UnevenCrushing& from, const UnevenCrushing& to,
+  KOKKOS_INLINE_FUNCTION Real lostBy(const LinearOnFace& from, const LinearOnFace& to,
                                      const EnergyDensity<T>& density) const;
   /// Of a joint that is crushed unevenly: mean of the crushing over the part in contact [m].
   KOKKOS_INLINE_FUNCTION Real meanCrushing() const;
@@ -393,6 +426,13 @@ public:
     EdgesOf<Real> edges = edges_;
     for (Real& exit : edges.exits)
       exit = 0;
+    closed.laidUnevenly_ = laidUnevenly_;
+    if constexpr (branchFree::widthOf<T> == 1)
+    {
+      closed.laid_ = laid_;
+      for (int f = 0; f < 2; ++f)
+        closed.layer_[f] = layer_[f];
+    }
     closed.meet(offset, false, edges);
     return closed;
   }
@@ -556,6 +596,13 @@ private:
   /// The same of what hangs on the closure of crushed places by its sum over them: `push`, and
   /// `first`, that times the place.
   KOKKOS_INLINE_FUNCTION void carryCrushing(Real push, const Vec2& first, Vec2 (&rim)[2][4]) const;
+  /// Adds what the energy changes with as faces carry along what they have absorbed. `push`: the
+  /// sum of what it changes with the closure, `first`: that times the place.
+  KOKKOS_INLINE_FUNCTION void carryLaid(Real push, const Vec2& first, Vec2 (&rim)[2][4]) const;
+  /// What a length that is linear over a face changes the energy by as its nodes move along the
+  /// plane: at a fixed place it changes by minus its slope times their weighted motion.
+  static KOKKOS_INLINE_FUNCTION void carry(const AffineFrame& frame, const Vec2& slope, Real push,
+                                           const Vec2& first, Vec2 (&rim)[4]);
   /// Calls f(place) for the corners of a polygon.
   template <class F>
   KOKKOS_INLINE_FUNCTION void forEachCorner(const Owned& q, const F& f) const;
@@ -695,6 +742,14 @@ private:
   std::conditional_t<branchFree::widthOf<T> == 1, LinearOnPlane, Nothing> crushed_;
   /// Of what is crushed of the part in contact.
   std::conditional_t<branchFree::widthOf<T> == 1, ContactMoments<T>, Nothing> ofCrushed_;
+  bool laidUnevenly_ = false;
+  std::conditional_t<branchFree::widthOf<T> == 1, LinearOnPlane, Nothing> laid_; ///< by both faces
+  struct Layer
+  {
+    AffineFrame frame;
+    Vec2 slope; ///< of what this face carries along
+  };
+  std::conditional_t<branchFree::widthOf<T> == 1, Layer, Nothing> layer_[2];
   /// The share from which on such pairs carry fully [-].
   static constexpr Real grownAt = 0.2;
   bool growing_ = false;

@@ -5,7 +5,8 @@
 #include <cmath>
 
 // Steps of PairPotential for joints that are crushed unevenly (docs/theory/joints.md, "Uneven
-// crushing").
+// crushing"), and for joints that have absorbed uneven gaps (docs/theory/scp.md, "Declared
+// joints").
 
 namespace coplane
 {
@@ -48,13 +49,44 @@ template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::carryCrushing(Real push, const Vec2& first,
                                                                  Vec2 (&rim)[2][4]) const
 {
-  // At a fixed place L changes by minus its slope times the weighted motion of the nodes.
-  const Vec2 about = first - push * frame_.center;
-  for (int i = 0; i < frame_.count; ++i)
+  carry(frame_, crushed_.slope, push, first, rim[0]);
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::carry(const AffineFrame& frame,
+                                                         const Vec2& slope, Real push,
+                                                         const Vec2& first, Vec2 (&rim)[4])
+{
+  const Vec2 about = first - push * frame.center;
+  for (int i = 0; i < frame.count; ++i)
   {
-    const Real part = push / frame_.count + dot(frame_.weightSlope(i), about);
-    rim[0][i] = rim[0][i] + part * crushed_.slope;
+    const Real part = push / frame.count + dot(frame.weightSlope(i), about);
+    rim[i] = rim[i] + part * slope;
   }
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::carryLaid(Real push, const Vec2& first,
+                                                             Vec2 (&rim)[2][4]) const
+{
+  for (int f = 0; f < 2; ++f)
+    carry(layer_[f].frame, layer_[f].slope, push, first, rim[f]);
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION Real PairPotential<Dim, T>::unevenGap(const Vec2& place,
+                                                             LinearOnFace (&laid)[2]) const
+{
+  const Vec2 slope = (-1 / kappa_) * tilt_; // of half of the closure
+  const LinearOnPlane half{-dot(slope, place), slope};
+  Real change = 0;
+  for (int f = 0; f < 2; ++f)
+  {
+    laid[f] = AffineFrame(shadow[f]).onFace(half);
+    for (const Real along : laid[f].along)
+      change = branchFree::larger(2 * std::fabs(along), change);
+  }
+  return change;
 }
 
 template <int Dim, class T>
@@ -135,10 +167,12 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::forEachSlice(const Owned& q,
 
 template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION bool PairPotential<Dim, T>::crushFurther(const Crushing& law, Real stiffness,
-                                                                Real even, UnevenCrushing& to) const
+                                                                Real even, LinearOnFace& to) const
 {
   const Real onset = law.onset(stiffness);
-  const LinearOnPlane closure{atPoint_ + even, (-2 / kappa_) * tilt_};
+  LinearOnPlane closure{atPoint_ + even, (-2 / kappa_) * tilt_};
+  if (laidUnevenly_)
+    closure = {closure.atOrigin - laid_.atOrigin, closure.slope - laid_.slope};
   Real least = infinity, most = -infinity;
   for (int i = 0; i < pieces_; ++i)
     forEachCorner(whole_[i],
@@ -235,8 +269,8 @@ KOKKOS_INLINE_FUNCTION bool PairPotential<Dim, T>::crushFurther(const Crushing& 
 }
 
 template <int Dim, class T>
-KOKKOS_INLINE_FUNCTION Real PairPotential<Dim, T>::lostBy(const UnevenCrushing& from,
-                                                          const UnevenCrushing& to,
+KOKKOS_INLINE_FUNCTION Real PairPotential<Dim, T>::lostBy(const LinearOnFace& from,
+                                                          const LinearOnFace& to,
                                                           const EnergyDensity<T>& density) const
 {
   const AffineFrame frame(shadow[0]);

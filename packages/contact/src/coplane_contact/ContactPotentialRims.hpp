@@ -39,8 +39,12 @@ PairPotential<Dim, T>::addRimOfEnd(const Owned& q, int end, const EnergyDensity<
     whole *= around(x);
   T change = 2 / kappa_ * tilt_.x * size_;
   if constexpr (widthOf<T> == 1)
+  {
     if (q.crushed)
       change += crushed_.slope.x * size_;
+    if (laidUnevenly_)
+      change += laid_.slope.x * size_;
+  }
   T kept = 1;
   for (int other = 0; other < 2; ++other)
   {
@@ -87,8 +91,12 @@ PairPotential<Dim, T>::addRimOfSide(const Owned& q, int k, const EnergyDensity<T
     const T longer = larger(dot(edge, edge), dot(own, own));
     T change = 2.0 / kappa_ * cross(tilt_, d) * size_ / squareRoot(dot(d, d) * longer);
     if constexpr (widthOf<T> == 1)
+    {
       if (q.crushed)
         change += cross(crushed_.slope, d) * size_ / squareRoot(dot(d, d) * longer);
+      if (laidUnevenly_)
+        change += cross(laid_.slope, d) * size_ / squareRoot(dot(d, d) * longer);
+    }
     const SharedRim<T> shared = shareRim(q.owner[k], 4 * g + o, along > 0.0, change);
     const auto close =
         near < shared.reach && along * along > 0.5 * dot(edge, edge) * dot(d, d) && there;
@@ -243,6 +251,8 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addBorder(const Owned& q, int
   Vec2 falls = (2 / kappa_) * tilt_; // closure, along the plane
   if (q.crushed)
     falls = falls + crushed_.slope;
+  if (laidUnevenly_)
+    falls = falls + laid_.slope;
   const int owner = q.owner[k];
   if constexpr (Dim == 2)
   {

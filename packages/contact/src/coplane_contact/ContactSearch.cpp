@@ -208,7 +208,7 @@ void Contact::findLimits(const ConstNodeVectors& x, const ConstNodeVectors& v, R
   std::vector<Real> offset{0};
   for (std::size_t p = 0; p < planes().size(); ++p)
     if (const Plane& plane = planes()[p]; plane.isBorn())
-      offset[0] = std::max(offset[0], plane.offset);
+      offset[0] = std::max(offset[0], plane.farthestOffset());
   comm_->max(offset);
   reach_.begin(offset[0], motionAhead(v, ahead));
   firstHalf_.bins = step1_globalSpaceLimits(localFaces(), x, reach_.rules(), *comm_);

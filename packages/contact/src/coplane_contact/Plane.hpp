@@ -114,15 +114,14 @@ enum class Pairing : std::uint8_t
   Stiff ///< the joint by far stiffer than what is behind, or rigid bodies: see weightInStep()
 };
 
-/// Crushing of a joint whose value is linear over face 0, and counts where it is positive, in the
-/// affine coordinates of that face (AffineFrame).
-struct UnevenCrushing
+/// A length that is linear over a face, in its affine coordinates (AffineFrame).
+struct LinearOnFace
 {
   Real atCenter = 0;      ///< [m]
   Real along[2] = {0, 0}; ///< for each coordinate [m]
 
-  /// As a plane keeps it, which has room for a number of single precision: nowhere less.
-  KOKKOS_INLINE_FUNCTION UnevenCrushing asKept() const
+  /// As a plane keeps a crushing, for which it has a number of single precision: nowhere less.
+  KOKKOS_INLINE_FUNCTION LinearOnFace asKept() const
   {
     float center = float(atCenter);
     if (Real(center) < atCenter)
@@ -197,6 +196,11 @@ struct alignas(64) Plane
   Real fractureWork = 0;
   Real dampingWork = 0;
 
+  /// Of a joint that has absorbed a gap which changes along its faces: the gap at which it is just
+  /// closed at a place is `offset` less these, each carried along by one face. Nothing else lies in
+  /// this line of the cache, and few planes need it.
+  Real laid[2][3] = {};
+
   KOKKOS_INLINE_FUNCTION Real& hysteresisDue() { return closureMemory[0]; }
   KOKKOS_INLINE_FUNCTION void bookHysteresisDue()
   {
@@ -204,12 +208,41 @@ struct alignas(64) Plane
     hysteresisDue() = 0;
   }
   KOKKOS_INLINE_FUNCTION Real& loadedArea() { return closureMemory[1]; }
-  /// How it is crushed, if unevenly.
-  KOKKOS_INLINE_FUNCTION UnevenCrushing crushing() const
+  /// A gap up to which faces of the plane may act on each other [m].
+  KOKKOS_INLINE_FUNCTION Real farthestOffset() const
+  {
+    Real most = offset;
+    for (int f = 0; f < 2 && history.absorbedUnevenly; ++f)
+      for (const Real part : laid[f])
+        most += std::fabs(part);
+    return most;
+  }
+  KOKKOS_INLINE_FUNCTION void layOn(int f, const LinearOnFace& part)
+  {
+    history.absorbedUnevenly = true;
+    laid[f][0] = part.atCenter;
+    laid[f][1] = part.along[0];
+    laid[f][2] = part.along[1];
+  }
+  /// By how much the gap that it has absorbed changes over a face [m].
+  KOKKOS_INLINE_FUNCTION Real changeOfGap() const
+  {
+    Real most = 0;
+    for (int f = 0; f < 2 && history.absorbedUnevenly; ++f)
+      for (int c = 1; c < 3; ++c)
+        most = 2 * std::fabs(laid[f][c]) > most ? 2 * std::fabs(laid[f][c]) : most;
+    return most;
+  }
+  KOKKOS_INLINE_FUNCTION LinearOnFace laidOn(int f) const
+  {
+    return {laid[f][0], {laid[f][1], laid[f][2]}};
+  }
+  /// How it is crushed, if unevenly: by that where it is positive, over face 0.
+  KOKKOS_INLINE_FUNCTION LinearOnFace crushing() const
   {
     return {history.crushedAtCenter, {closureMemory[0], closureMemory[1]}};
   }
-  KOKKOS_INLINE_FUNCTION void crush(const UnevenCrushing& crushing)
+  KOKKOS_INLINE_FUNCTION void crush(const LinearOnFace& crushing)
   {
     crushedUnevenly = true;
     history.crushedAtCenter = float(crushing.atCenter);
@@ -310,7 +343,7 @@ struct alignas(64) Plane
     return work - stored - frictionWork - hysteresisWork - fractureWork - dampingWork;
   }
 };
-static_assert(sizeof(Plane) == 8 * 64, "planes fill the memory bandwidth: whole cache lines");
+static_assert(sizeof(Plane) == 9 * 64, "planes fill the memory bandwidth: whole cache lines");
 
 /// What a cycle has to do with a slot; a table of these is looked through in every cycle.
 enum class Activity : std::uint8_t

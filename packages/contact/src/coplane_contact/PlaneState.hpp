@@ -145,6 +145,10 @@ inline constexpr auto planeMembers = std::make_tuple(
     planeMember<Passing::Any, Stale::Never>(
         "absorbed", "-", [](auto& p) -> auto& { return p.history.absorbed; })
         .notStaleBecause("it changes only where the offset does"),
+    planeMember(
+        "absorbed_unevenly", "-", [](auto& p) -> auto& { return p.history.absorbedUnevenly; }),
+    planeMember(
+        "laid", "m", [](auto& p) -> auto& { return p.laid; }),
     planeMember<Passing::Mean, Stale::WithCurve>(
         "maximum_closure", "m", [](auto& p) -> auto& { return p.history.maximumClosure; })
         .writtenAs("maximum_closure"),

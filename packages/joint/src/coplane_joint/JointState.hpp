@@ -16,14 +16,15 @@ struct JointFit
 /// History of a plane.
 struct JointState
 {
-  Real maximumClosure = 0;   ///< largest closure so far; of a joint that is crushed, that which
-                             ///< first loading without shear needs to crush it as much [m]
-  Vec3 shearTraction{};      ///< on the face with the higher id [Pa]
-  Real slip = 0;             ///< length of the slip path [m]
-  Real opening = 0;          ///< inelastic opening [m]
-  Real shearing = 0;         ///< inelastic slip of the bond [m]
-  bool absorbed = false;     ///< the gap at which it is closed has one of the mesh in it
-  bool bonded = false;       ///< carries tension and cohesion until broken
+  Real maximumClosure = 0;       ///< largest closure so far; of a joint that is crushed, that which
+                                 ///< first loading without shear needs to crush it as much [m]
+  Vec3 shearTraction{};          ///< on the face with the higher id [Pa]
+  Real slip = 0;                 ///< length of the slip path [m]
+  Real opening = 0;              ///< inelastic opening [m]
+  Real shearing = 0;             ///< inelastic slip of the bond [m]
+  bool absorbed = false;         ///< the gap at which it is closed has one of the mesh in it
+  bool absorbedUnevenly = false; ///< and that changes along the faces
+  bool bonded = false;           ///< carries tension and cohesion until broken
   float crushedAtCenter = 0; ///< of a plane that is crushed unevenly: its crushing at the centre of
                              ///< face 0; may be negative there [m]
 };

@@ -107,7 +107,8 @@ Json censusOf(const Contact& contact)
             {"slip", c.slip},           {"declared_closed", c.declaredClosed},
             {"bonded", c.bonded},       {"declared_without_overlap", c.declaredWithoutOverlap},
             {"touching", c.touching},   {"overlapping", c.overlapping},
-            {"apart", c.apart}};
+            {"apart", c.apart},         {"declared_uneven", c.uneven}};
+  json["change_of_joint_gap_m"] = c.changeOfGap;
   json["joint_gaps"] = lengthsOf(c.joints);
   json["overlaps"] = lengthsOf(c.overlaps);
   json["gaps"] = lengthsOf(c.gaps);

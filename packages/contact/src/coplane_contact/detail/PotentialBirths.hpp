@@ -54,6 +54,8 @@ PotentialCycle<Dim, T>::stepBefore(const Plane& plane, int i) const
   PairPotential<Dim, Real> before(a, b, ContactPotentialScale(options_));
   if (!before.plane.opposed) // or their shadows are apart
     return -dot(a.normal, b.normal) > options_.cosOpposed ? Before::SharedNoArea : Before::Open;
+  if (plane.history.absorbedUnevenly)
+    before.lay(plane.laidOn(0), plane.laidOn(1));
   before.meet(plane.offset - permanents_[i], false, {});
   const Real sliver = sliverOfFace > options_.areaMin ? sliverOfFace : options_.areaMin;
   if (!(before.overlap > sliver * (a.area < b.area ? a.area : b.area)))

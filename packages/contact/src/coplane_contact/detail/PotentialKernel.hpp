@@ -168,6 +168,8 @@ private:
     if constexpr (width == 1)
     {
       const Plane& plane = *planes_.plane[0];
+      if (opposed && plane.history.absorbedUnevenly)
+        pair_.lay(plane.laidOn(0), plane.laidOn(1));
       if (opposed && plane.crushedUnevenly)
         pair_.beCrushed(plane.crushing());
       if (plane.carriesGrowing())
@@ -181,7 +183,7 @@ private:
     done_ = pair_.regular || !opposed || Mask(width == 1);
     if constexpr (width != 1)
     {
-      leaveCrushed(opposed);
+      leaveUneven(opposed);
       leaveNewOnCurves(opposed && !carried);
     }
     overlap_ = branchFree::choose(opposed, pair_.overlap, T(0.0));
@@ -214,8 +216,9 @@ private:
   KOKKOS_FORCEINLINE_FUNCTION void leaveNewOnCurves(const Mask& touching);
   /// What has begun deep within a surface, or may do so, is left to T = Real.
   KOKKOS_FORCEINLINE_FUNCTION void leaveDeep();
-  /// What is crushed unevenly, or will be in this cycle, is left to T = Real.
-  KOKKOS_FORCEINLINE_FUNCTION void leaveCrushed(const Mask& opposed);
+  /// What is crushed unevenly, or will be in this cycle, and what has absorbed an uneven gap, is
+  /// left to T = Real.
+  KOKKOS_FORCEINLINE_FUNCTION void leaveUneven(const Mask& opposed);
   /// Closure up to which a joint that has been crushed evenly is crushed no further [m].
   KOKKOS_FORCEINLINE_FUNCTION Real mostWithoutCrushing(int i) const;
 

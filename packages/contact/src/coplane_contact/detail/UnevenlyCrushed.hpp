@@ -13,7 +13,7 @@ struct CrushedFrom
 {
   bool further = false;
   bool carried = false; ///< before the step
-  UnevenCrushing from;  ///< how it was crushed then
+  LinearOnFace from;    ///< how it was crushed then
   Real offset = 0;      ///< of its plane then [m]
   Real parted = 0; ///< of what shear has crushed: what did not close it, but is in the offset [m]
 };
@@ -42,7 +42,7 @@ struct UnevenlyCrushed
     result.offset = plane.offset;
     const Real least =
         plane.crushedUnevenly ? law.onset(stiffness) : law.closureOf(permanent, stiffness);
-    UnevenCrushing to;
+    LinearOnFace to;
     if (pair.mostClosure + permanent > least && pair.crushFurther(law, stiffness, permanent, to))
     {
       result.further = crushTo(to);
@@ -62,7 +62,7 @@ struct UnevenlyCrushed
   KOKKOS_INLINE_FUNCTION void crushByShear(CrushedFrom& crushed, Real permanent, Real more,
                                            Real parted) const
   {
-    UnevenCrushing to = crushing(permanent);
+    LinearOnFace to = crushing(permanent);
     to.atCenter += more;
     if (crushTo(to.asKept()))
     {
@@ -102,13 +102,13 @@ struct UnevenlyCrushed
 
 private:
   /// @param even where it is not crushed unevenly yet [m]
-  KOKKOS_INLINE_FUNCTION UnevenCrushing crushing(Real even) const
+  KOKKOS_INLINE_FUNCTION LinearOnFace crushing(Real even) const
   {
-    return plane.crushedUnevenly ? plane.crushing() : UnevenCrushing{even, {0, 0}};
+    return plane.crushedUnevenly ? plane.crushing() : LinearOnFace{even, {0, 0}};
   }
 
   /// @returns whether the joint carries then; else its plane stays as it is, but its pair does not
-  KOKKOS_INLINE_FUNCTION bool crushTo(const UnevenCrushing& to) const
+  KOKKOS_INLINE_FUNCTION bool crushTo(const LinearOnFace& to) const
   {
     pair.beCrushed(to);
     pair.meet(plane.offset, false, edges);
@@ -142,11 +142,13 @@ private:
 
   /// @param offset of the plane [m]
   /// @returns the energy of a pair [J]; none where the faces are apart
-  KOKKOS_INLINE_FUNCTION Real press(PairPotential<Dim, Real>& other, const UnevenCrushing& crushing,
+  KOKKOS_INLINE_FUNCTION Real press(PairPotential<Dim, Real>& other, const LinearOnFace& crushing,
                                     Real offset, EnergyDensity<Real>& density) const
   {
     if (!other.plane.opposed)
       return 0;
+    if (plane.history.absorbedUnevenly)
+      other.lay(plane.laidOn(0), plane.laidOn(1));
     other.beCrushed(crushing);
     other.meet(offset, false, edges);
     if (!(other.moments.volume > 0))
