@@ -42,7 +42,7 @@ struct Crushed
     for (int e = 0; e < 8; ++e)
       edges.exits[e] = edges.turns[e] = exits >> e & 1;
     if (joint.laid != nullptr)
-      pair.lay(joint.laid[0], joint.laid[1]);
+      layOn(pair, joint.laid);
     if (joint.crushing != nullptr)
       pair.beCrushed(*joint.crushing);
     pair.meet(offset, false, edges);
@@ -253,7 +253,7 @@ TEST(CrushedPair, anUnevenGapThatIsAbsorbedLeavesTheClosureEven)
     EXPECT_GT(before.unevenGap(centroid, laid), 1e-4);
     const Real gap = -before.moments.volume / before.moments.area;
     PairPotential<3, Real> after(a, b, ContactPotentialScale(.1));
-    after.lay(laid[0], laid[1]);
+    layOn(after, laid);
     after.meet(gap + .01, false, {});
     EXPECT_NEAR(after.mostClosure, .01, 1e-14);
     EXPECT_NEAR(after.leastClosure(), .01, 1e-14);

@@ -22,7 +22,7 @@ using namespace facepairs;
 constexpr Real dt = 1e-3;
 
 /// Pairs of all kinds: triangles and quadrilaterals, plane and warped and folded, or segments,
-/// apart, touching, aligned to the last bit, new, old, bonded.
+/// apart, touching, aligned to the last bit, new, old, bonded, on uneven gaps.
 template <int Dim>
 struct PairTable
 {
@@ -83,6 +83,9 @@ struct PairTable
         plane.history.shearTraction =
             cross(plane.normal, Vec3{z * u(random), z * u(random), u(random)});
       }
+      if (random() % 5 == 0)
+        for (int f = 0; f < 2; ++f)
+          plane.layOn(f, {.02 * u(random), {.05 * u(random), .05 * u(random)}});
       planes.push_back(plane);
       nodes.push_back(pair.a);
       nodes.push_back(pair.b);

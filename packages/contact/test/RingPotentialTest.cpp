@@ -42,7 +42,7 @@ struct OfRing
     for (int e = 0; e < 8; ++e)
       edges.exits[e] = edges.turns[e] = ring.exits >> e & 1;
     if (ring.laid != nullptr)
-      pair.lay(ring.laid[0], ring.laid[1]);
+      layOn(pair, ring.laid);
     if (ring.crushing != nullptr)
       pair.beCrushed(*ring.crushing);
     pair.meet(ring.offset, ring.bonded, edges);

@@ -6,26 +6,29 @@
 namespace coplane
 {
 /// A linear function of the place in a plane.
-struct LinearOnPlane
+template <class T>
+struct LinearOnPlaneOf
 {
-  Real atOrigin = 0;
-  Vec2 slope;
+  T atOrigin{};
+  Vec2Of<T> slope{};
 
-  KOKKOS_INLINE_FUNCTION Real at(const Vec2& p) const { return atOrigin + dot(slope, p); }
+  KOKKOS_INLINE_FUNCTION T at(const Vec2Of<T>& p) const { return atOrigin + dot(slope, p); }
 };
+using LinearOnPlane = LinearOnPlaneOf<Real>;
 
 /// Affine coordinates of a face, which its nodes carry along: a place is the mean of the nodes plus
 /// the coordinates times two axes. The weights of the nodes there are linear in the coordinates,
 /// and reproduce the place; those of evenWeights() where a quadrilateral is convex. A quadrilateral
 /// has coordinates of -1/2 to 1/2, and axes that span its area; a segment has one coordinate.
-struct AffineFrame
+template <class T>
+struct AffineFrameOf
 {
   int count = 0;
-  Vec2 center, axis[2];
-  Vec2 dual[2]; ///< slopes of the coordinates [1/m]
+  Vec2Of<T> center{}, axis[2]{};
+  Vec2Of<T> dual[2]{}; ///< slopes of the coordinates [1/m]; 0 where the face has no area
 
-  KOKKOS_INLINE_FUNCTION AffineFrame() {}
-  KOKKOS_INLINE_FUNCTION explicit AffineFrame(const Shadow& shadow) : count(shadow.count)
+  KOKKOS_INLINE_FUNCTION AffineFrameOf() {}
+  KOKKOS_INLINE_FUNCTION explicit AffineFrameOf(const ShadowOf<T>& shadow) : count(shadow.count)
   {
     for (int i = 0; i < count; ++i)
     {
@@ -35,14 +38,13 @@ struct AffineFrame
     }
     if (count == 2)
     {
-      dual[0] = {1 / axis[0].x, 0};
+      dual[0] = {1.0 / axis[0].x, T(0.0)};
       return;
     }
-    const Real area = cross(axis[0], axis[1]);
-    if (!(area != 0))
-      return; // folded; carries nothing
-    dual[0] = (1 / area) * Vec2{axis[1].y, -axis[1].x};
-    dual[1] = (1 / area) * Vec2{-axis[0].y, axis[0].x};
+    const T area = cross(axis[0], axis[1]);
+    const T inverse = branchFree::choose(area != 0.0, 1.0 / area, T(0.0));
+    dual[0] = inverse * Vec2Of<T>{axis[1].y, -axis[1].x};
+    dual[1] = inverse * Vec2Of<T>{-axis[0].y, axis[0].x};
   }
 
   /// Of the weight of a node with a coordinate.
@@ -56,19 +58,26 @@ struct AffineFrame
     return positive ? 0.5 : -0.5;
   }
   /// Slope of the weight of a node [1/m].
-  KOKKOS_INLINE_FUNCTION Vec2 weightSlope(int node) const
+  KOKKOS_INLINE_FUNCTION Vec2Of<T> weightSlope(int node) const
   {
     return weightChange(node, 0) * dual[0] + weightChange(node, 1) * dual[1];
   }
 
-  KOKKOS_INLINE_FUNCTION LinearOnPlane onPlane(const LinearOnFace& crushing) const
+  /// @param atCenter, along as of LinearOnFace
+  KOKKOS_INLINE_FUNCTION LinearOnPlaneOf<T> onPlane(const T& atCenter, const T& along0,
+                                                    const T& along1) const
   {
-    const Vec2 slope = crushing.along[0] * dual[0] + crushing.along[1] * dual[1];
-    return {crushing.atCenter - dot(slope, center), slope};
+    const Vec2Of<T> slope = along0 * dual[0] + along1 * dual[1];
+    return {atCenter - dot(slope, center), slope};
   }
-  KOKKOS_INLINE_FUNCTION LinearOnFace onFace(const LinearOnPlane& crushing) const
+  KOKKOS_INLINE_FUNCTION LinearOnPlane onPlane(const LinearOnFace& length) const
   {
-    return {crushing.at(center), {dot(crushing.slope, axis[0]), dot(crushing.slope, axis[1])}};
+    return onPlane(length.atCenter, length.along[0], length.along[1]);
+  }
+  KOKKOS_INLINE_FUNCTION LinearOnFace onFace(const LinearOnPlane& length) const
+  {
+    return {length.at(center), {dot(length.slope, axis[0]), dot(length.slope, axis[1])}};
   }
 };
+using AffineFrame = AffineFrameOf<Real>;
 } // namespace coplane

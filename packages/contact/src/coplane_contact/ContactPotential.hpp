@@ -88,9 +88,11 @@ public:
     const HalfStepFaceOf<T>&a = *face_[0], &b = *face_[1];
     kappa_ = dot(plane.normal, a.normal);
     const Vec3Of<T> tilt = 0.5 * (a.normal + b.normal), apart = b.center - a.center;
-    tilt_ = inPlane(tilt);
+    tilt_ = closureTilt_ = inPlane(tilt);
     apart_ = inPlane(apart);
     atPoint_ = offset - dot(plane.normal, apart);
+    if (isLaid_)
+      putOnLayers();
     bonded_ = whole;
     const T least = smaller(a.area, b.area);
     size_ = least;
@@ -260,12 +262,10 @@ public:
         if (folded_[f].slope != 0)
           addFolded(f, rim);
     if constexpr (widthOf<T> == 1)
-    {
       if (uneven_)
         addCrushing(density, rim);
-      if (laidUnevenly_)
-        carryLaid(push, first, rim);
-    }
+    if (isLaid_)
+      carryLayers(push, first, rim);
     if constexpr (canRevolve)
       if (scale_.axisymmetric)
         addRadii(energy, density, scale, rim);
@@ -354,27 +354,21 @@ public:
 
   KOKKOS_FORCEINLINE_FUNCTION T closureAt(const Vec2Of<T>& p) const
   {
-    const T closure = atPoint_ - (2.0 / kappa_) * dot(tilt_, p);
-    if constexpr (branchFree::widthOf<T> == 1)
-      if (laidUnevenly_)
-        return closure - laid_.at(p);
-    return closure;
+    return atPoint_ - (2.0 / kappa_) * dot(closureTilt_, p);
   }
 
-  // Joints that have absorbed gaps which change along their faces (ContactPotentialCrushing.hpp),
-  // T = Real only.
-  /// Before meet(): the gap at which the joint is just closed at a place is the offset less these,
-  /// each carried along by its face.
-  KOKKOS_INLINE_FUNCTION void lay(const LinearOnFace& onFirst, const LinearOnFace& onSecond)
+  // Joints that have absorbed gaps which change along their faces (ContactPotentialCrushing.hpp).
+  /// Before meet(): the gap at which the joint is just closed at a place is the offset less lengths
+  /// that are linear over the faces, each carried along by its face.
+  /// @param of the lanes that have some; laid as Plane::laid [m]
+  KOKKOS_INLINE_FUNCTION void lay(const Mask& of, const T (&laid)[2][3])
   {
-    laidUnevenly_ = true;
-    laid_ = {};
+    isLaid_ = true;
+    laidLanes_ = of && plane.opposed;
     for (int f = 0; f < 2; ++f)
     {
-      layer_[f].frame = AffineFrame(shadow[f]);
-      const LinearOnPlane part = layer_[f].frame.onPlane(f == 0 ? onFirst : onSecond);
-      layer_[f].slope = part.slope;
-      laid_ = {laid_.atOrigin + part.atOrigin, laid_.slope + part.slope};
+      layer_[f].frame = AffineFrameOf<T>(shadow[f]);
+      layer_[f].length = layer_[f].frame.onPlane(laid[f][0], laid[f][1], laid[f][2]);
     }
   }
   /// After meet(), with the offset 0: what lay() needs for a joint whose closure is the same all
@@ -426,13 +420,8 @@ public:
     EdgesOf<Real> edges = edges_;
     for (Real& exit : edges.exits)
       exit = 0;
-    closed.laidUnevenly_ = laidUnevenly_;
     if constexpr (branchFree::widthOf<T> == 1)
-    {
-      closed.laid_ = laid_;
-      for (int f = 0; f < 2; ++f)
-        closed.layer_[f] = layer_[f];
-    }
+      closed.layAs(*this);
     closed.meet(offset, false, edges);
     return closed;
   }
@@ -596,13 +585,25 @@ private:
   /// The same of what hangs on the closure of crushed places by its sum over them: `push`, and
   /// `first`, that times the place.
   KOKKOS_INLINE_FUNCTION void carryCrushing(Real push, const Vec2& first, Vec2 (&rim)[2][4]) const;
-  /// Adds what the energy changes with as faces carry along what they have absorbed. `push`: the
-  /// sum of what it changes with the closure, `first`: that times the place.
-  KOKKOS_INLINE_FUNCTION void carryLaid(Real push, const Vec2& first, Vec2 (&rim)[2][4]) const;
+  /// Takes the layers of an uneven gap into the closure.
+  KOKKOS_INLINE_FUNCTION void putOnLayers();
+  /// Those of another pair of the same faces.
+  KOKKOS_INLINE_FUNCTION void layAs(const PairPotential& other)
+  {
+    isLaid_ = other.isLaid_;
+    laidLanes_ = other.laidLanes_;
+    for (int f = 0; f < 2 && isLaid_; ++f)
+      layer_[f] = other.layer_[f];
+  }
+  /// Adds what the energy changes with as faces carry their layers along. `push`: the sum of what
+  /// it changes with the closure, `first`: that times the place.
+  KOKKOS_INLINE_FUNCTION void carryLayers(const T& push, const Vec2Of<T>& first,
+                                          Vec2Of<T> (&rim)[2][4]) const;
   /// What a length that is linear over a face changes the energy by as its nodes move along the
   /// plane: at a fixed place it changes by minus its slope times their weighted motion.
-  static KOKKOS_INLINE_FUNCTION void carry(const AffineFrame& frame, const Vec2& slope, Real push,
-                                           const Vec2& first, Vec2 (&rim)[4]);
+  static KOKKOS_INLINE_FUNCTION void carry(const AffineFrameOf<T>& frame, const Vec2Of<T>& slope,
+                                           const T& push, const Vec2Of<T>& first,
+                                           Vec2Of<T> (&rim)[4]);
   /// Calls f(place) for the corners of a polygon.
   template <class F>
   KOKKOS_INLINE_FUNCTION void forEachCorner(const Owned& q, const F& f) const;
@@ -708,6 +709,7 @@ private:
   T coveredSides_[2]{};           ///< number of sides on covered edges of each face
   T openSides_[2]{};              ///< and on others at which its surface turns
   Vec2Of<T> tilt_, apart_;
+  Vec2Of<T> closureTilt_; ///< tilt_ of faces between which the closure changes as it does
   bool inOrder_ = false;
   int pieces_ = 0;
   Owned piece_[maxPieces];
@@ -742,14 +744,14 @@ private:
   std::conditional_t<branchFree::widthOf<T> == 1, LinearOnPlane, Nothing> crushed_;
   /// Of what is crushed of the part in contact.
   std::conditional_t<branchFree::widthOf<T> == 1, ContactMoments<T>, Nothing> ofCrushed_;
-  bool laidUnevenly_ = false;
-  std::conditional_t<branchFree::widthOf<T> == 1, LinearOnPlane, Nothing> laid_; ///< by both faces
+  bool isLaid_ = false; ///< some lanes
+  Mask laidLanes_{false};
   struct Layer
   {
-    AffineFrame frame;
-    Vec2 slope; ///< of what this face carries along
+    AffineFrameOf<T> frame;
+    LinearOnPlaneOf<T> length;
   };
-  std::conditional_t<branchFree::widthOf<T> == 1, Layer, Nothing> layer_[2];
+  Layer layer_[2]; ///< that each face carries along
   /// The share from which on such pairs carry fully [-].
   static constexpr Real grownAt = 0.2;
   bool growing_ = false;

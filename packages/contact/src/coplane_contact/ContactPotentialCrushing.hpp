@@ -53,24 +53,49 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::carryCrushing(Real push, cons
 }
 
 template <int Dim, class T>
-KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::carry(const AffineFrame& frame,
-                                                         const Vec2& slope, Real push,
-                                                         const Vec2& first, Vec2 (&rim)[4])
+KOKKOS_INLINE_FUNCTION void
+PairPotential<Dim, T>::carry(const AffineFrameOf<T>& frame, const Vec2Of<T>& slope, const T& push,
+                             const Vec2Of<T>& first, Vec2Of<T> (&rim)[4])
 {
-  const Vec2 about = first - push * frame.center;
+  const Vec2Of<T> about = first - push * frame.center;
   for (int i = 0; i < frame.count; ++i)
   {
-    const Real part = push / frame.count + dot(frame.weightSlope(i), about);
+    const T part = push / frame.count + dot(frame.weightSlope(i), about);
     rim[i] = rim[i] + part * slope;
   }
 }
 
 template <int Dim, class T>
-KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::carryLaid(Real push, const Vec2& first,
-                                                             Vec2 (&rim)[2][4]) const
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::putOnLayers()
 {
+  using branchFree::choose;
+  const T half = 0.5 * kappa_;
+  for (const Layer& layer : layer_)
+  {
+    atPoint_ = choose(laidLanes_, atPoint_ - layer.length.atOrigin, atPoint_);
+    closureTilt_.x =
+        choose(laidLanes_, closureTilt_.x + half * layer.length.slope.x, closureTilt_.x);
+    closureTilt_.y =
+        choose(laidLanes_, closureTilt_.y + half * layer.length.slope.y, closureTilt_.y);
+  }
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::carryLayers(const T& push,
+                                                               const Vec2Of<T>& first,
+                                                               Vec2Of<T> (&rim)[2][4]) const
+{
+  using branchFree::choose;
   for (int f = 0; f < 2; ++f)
-    carry(layer_[f].frame, layer_[f].slope, push, first, rim[f]);
+  {
+    Vec2Of<T> carried[4];
+    for (int i = 0; i < face_[f]->count; ++i)
+      carried[i] = rim[f][i];
+    carry(layer_[f].frame, layer_[f].length.slope, push, first, carried);
+    for (int i = 0; i < face_[f]->count; ++i)
+      rim[f][i] = {choose(laidLanes_, carried[i].x, rim[f][i].x),
+                   choose(laidLanes_, carried[i].y, rim[f][i].y)};
+  }
 }
 
 template <int Dim, class T>
@@ -170,9 +195,7 @@ KOKKOS_INLINE_FUNCTION bool PairPotential<Dim, T>::crushFurther(const Crushing& 
                                                                 Real even, LinearOnFace& to) const
 {
   const Real onset = law.onset(stiffness);
-  LinearOnPlane closure{atPoint_ + even, (-2 / kappa_) * tilt_};
-  if (laidUnevenly_)
-    closure = {closure.atOrigin - laid_.atOrigin, closure.slope - laid_.slope};
+  const LinearOnPlane closure{atPoint_ + even, (-2 / kappa_) * closureTilt_};
   Real least = infinity, most = -infinity;
   for (int i = 0; i < pieces_; ++i)
     forEachCorner(whole_[i],

@@ -37,14 +37,10 @@ PairPotential<Dim, T>::addRimOfEnd(const Owned& q, int end, const EnergyDensity<
   T whole = (end == 0 ? -1.0 : 1.0) * at(closureIn(q, {x, 0}));
   if (ofRing)
     whole *= around(x);
-  T change = 2 / kappa_ * tilt_.x * size_;
+  T change = 2 / kappa_ * closureTilt_.x * size_;
   if constexpr (widthOf<T> == 1)
-  {
     if (q.crushed)
       change += crushed_.slope.x * size_;
-    if (laidUnevenly_)
-      change += laid_.slope.x * size_;
-  }
   T kept = 1;
   for (int other = 0; other < 2; ++other)
   {
@@ -89,14 +85,10 @@ PairPotential<Dim, T>::addRimOfSide(const Owned& q, int k, const EnergyDensity<T
       continue;
     const T along = dot(edge, d);
     const T longer = larger(dot(edge, edge), dot(own, own));
-    T change = 2.0 / kappa_ * cross(tilt_, d) * size_ / squareRoot(dot(d, d) * longer);
+    T change = 2.0 / kappa_ * cross(closureTilt_, d) * size_ / squareRoot(dot(d, d) * longer);
     if constexpr (widthOf<T> == 1)
-    {
       if (q.crushed)
         change += cross(crushed_.slope, d) * size_ / squareRoot(dot(d, d) * longer);
-      if (laidUnevenly_)
-        change += cross(laid_.slope, d) * size_ / squareRoot(dot(d, d) * longer);
-    }
     const SharedRim<T> shared = shareRim(q.owner[k], 4 * g + o, along > 0.0, change);
     const auto close =
         near < shared.reach && along * along > 0.5 * dot(edge, edge) * dot(d, d) && there;
@@ -248,11 +240,9 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addBorder(const Owned& q, int
                                                              Real& push, Vec2& first,
                                                              Vec2 (&rim)[2][4])
 {
-  Vec2 falls = (2 / kappa_) * tilt_; // closure, along the plane
+  Vec2 falls = (2 / kappa_) * closureTilt_; // closure, along the plane
   if (q.crushed)
     falls = falls + crushed_.slope;
-  if (laidUnevenly_)
-    falls = falls + laid_.slope;
   const int owner = q.owner[k];
   if constexpr (Dim == 2)
   {

@@ -72,7 +72,7 @@ PairPotential<Dim, T>::addRimsOfSegments(const EnergyDensity<T>& density,
                                          Vec2Of<T> (&rim)[2][4]) const
 {
   using namespace branchFree;
-  const T none(0.0), change = 2.0 / kappa_ * tilt_.x * size_;
+  const T none(0.0), change = 2.0 / kappa_ * closureTilt_.x * size_;
   for (int end = 0; end < 2; ++end)
   {
     const T x = segment_.at[end], c = closureAt({x, none});

@@ -233,10 +233,6 @@ struct alignas(64) Plane
         most = 2 * std::fabs(laid[f][c]) > most ? 2 * std::fabs(laid[f][c]) : most;
     return most;
   }
-  KOKKOS_INLINE_FUNCTION LinearOnFace laidOn(int f) const
-  {
-    return {laid[f][0], {laid[f][1], laid[f][2]}};
-  }
   /// How it is crushed, if unevenly: by that where it is positive, over face 0.
   KOKKOS_INLINE_FUNCTION LinearOnFace crushing() const
   {

@@ -29,7 +29,7 @@ KOKKOS_INLINE_FUNCTION Real settlement(const Plane& plane, const JointLaw& law,
     if (!pair.plane.opposed)
       return 0;
     if (plane.history.absorbedUnevenly)
-      pair.lay(plane.laidOn(0), plane.laidOn(1));
+      pair.lay(true, plane.laid);
     pair.meet(plane.offset - permanent - middle, false, {});
     if (step == 0)
       high = pair.mostClosure > 0 ? pair.mostClosure : 0;

@@ -55,7 +55,7 @@ PotentialCycle<Dim, T>::stepBefore(const Plane& plane, int i) const
   if (!before.plane.opposed) // or their shadows are apart
     return -dot(a.normal, b.normal) > options_.cosOpposed ? Before::SharedNoArea : Before::Open;
   if (plane.history.absorbedUnevenly)
-    before.lay(plane.laidOn(0), plane.laidOn(1));
+    before.lay(true, plane.laid);
   before.meet(plane.offset - permanents_[i], false, {});
   const Real sliver = sliverOfFace > options_.areaMin ? sliverOfFace : options_.areaMin;
   if (!(before.overlap > sliver * (a.area < b.area ? a.area : b.area)))

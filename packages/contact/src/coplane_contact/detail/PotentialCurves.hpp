@@ -54,15 +54,8 @@ KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::leaveNewOnCurves(const 
 }
 
 template <int Dim, class T>
-KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::leaveUneven(const Mask& opposed)
+KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::leaveCrushed(const Mask& opposed)
 {
-  bool laid = false;
-  for (int i = 0; i < planes_.count; ++i)
-    laid = laid || planes_.plane[i]->history.absorbedUnevenly;
-  if (laid)
-    done_ =
-        done_ &&
-        !(opposed && planes_.each([](const Plane& p) { return p.history.absorbedUnevenly; }) > 0.0);
   bool any = false;
   for (const bool crushes : crushes_)
     any = any || crushes;

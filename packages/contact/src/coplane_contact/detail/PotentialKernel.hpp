@@ -165,11 +165,11 @@ private:
   KOKKOS_FORCEINLINE_FUNCTION void meet()
   {
     const auto& opposed = pair_.plane.opposed;
+    if (branchFree::anyOf(opposed))
+      lay();
     if constexpr (width == 1)
     {
       const Plane& plane = *planes_.plane[0];
-      if (opposed && plane.history.absorbedUnevenly)
-        pair_.lay(plane.laidOn(0), plane.laidOn(1));
       if (opposed && plane.crushedUnevenly)
         pair_.beCrushed(plane.crushing());
       if (plane.carriesGrowing())
@@ -183,7 +183,7 @@ private:
     done_ = pair_.regular || !opposed || Mask(width == 1);
     if constexpr (width != 1)
     {
-      leaveUneven(opposed);
+      leaveCrushed(opposed);
       leaveNewOnCurves(opposed && !carried);
     }
     overlap_ = branchFree::choose(opposed, pair_.overlap, T(0.0));
@@ -196,6 +196,20 @@ private:
       done_ = done_ && !findBending(planes_, bends_ && overlaps_, pair_, a_, b_, dt_, bent_);
   }
 
+  /// What joints have absorbed unevenly.
+  KOKKOS_FORCEINLINE_FUNCTION void lay()
+  {
+    bool any = false;
+    for (int i = 0; i < planes_.count; ++i)
+      any = any || planes_.plane[i]->history.absorbedUnevenly;
+    if (!any)
+      return;
+    T laid[2][3];
+    for (int f = 0; f < 2; ++f)
+      for (int k = 0; k < 3; ++k)
+        laid[f][k] = planes_.each([&](const Plane& p) { return p.laid[f][k]; });
+    pair_.lay(planes_.each([](const Plane& p) { return p.history.absorbedUnevenly; }) > 0.0, laid);
+  }
   KOKKOS_FORCEINLINE_FUNCTION void findClosure()
   {
     const T offset = planes_.each([](const Plane& p) { return p.offset; });
@@ -216,9 +230,8 @@ private:
   KOKKOS_FORCEINLINE_FUNCTION void leaveNewOnCurves(const Mask& touching);
   /// What has begun deep within a surface, or may do so, is left to T = Real.
   KOKKOS_FORCEINLINE_FUNCTION void leaveDeep();
-  /// What is crushed unevenly, or will be in this cycle, and what has absorbed an uneven gap, is
-  /// left to T = Real.
-  KOKKOS_FORCEINLINE_FUNCTION void leaveUneven(const Mask& opposed);
+  /// What is crushed unevenly, or will be in this cycle, is left to T = Real.
+  KOKKOS_FORCEINLINE_FUNCTION void leaveCrushed(const Mask& opposed);
   /// Closure up to which a joint that has been crushed evenly is crushed no further [m].
   KOKKOS_FORCEINLINE_FUNCTION Real mostWithoutCrushing(int i) const;
 

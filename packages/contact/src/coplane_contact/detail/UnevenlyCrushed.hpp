@@ -148,7 +148,7 @@ private:
     if (!other.plane.opposed)
       return 0;
     if (plane.history.absorbedUnevenly)
-      other.lay(plane.laidOn(0), plane.laidOn(1));
+      other.lay(true, plane.laid);
     other.beCrushed(crushing);
     other.meet(offset, false, edges);
     if (!(other.moments.volume > 0))
