@@ -10,19 +10,21 @@
 
 namespace coplane::facepairs
 {
-/// Lays a pair on uneven gaps, a length for each face.
-template <int Dim>
-void layOn(PairPotential<Dim, Real>& pair, const LinearOnFace* laid)
+/// A length for each face, as PairPotential::lay() has them.
+struct Layers
 {
   Real parts[2][3];
-  for (int f = 0; f < 2; ++f)
+
+  explicit Layers(const LinearOnFace* laid)
   {
-    parts[f][0] = laid[f].atCenter;
-    parts[f][1] = laid[f].along[0];
-    parts[f][2] = laid[f].along[1];
+    for (int f = 0; f < 2; ++f)
+    {
+      parts[f][0] = laid[f].atCenter;
+      parts[f][1] = laid[f].along[0];
+      parts[f][2] = laid[f].along[1];
+    }
   }
-  pair.lay(true, parts);
-}
+};
 
 /// Forces at the corners of a pair sum to nothing, and so do their moments.
 inline void expectBalanced(const RandomPair& pair, const Vec3 (&forces)[2][4])

@@ -18,7 +18,7 @@ using namespace facepairs;
 struct Uneven
 {
   const LinearOnFace* crushing = nullptr;
-  const LinearOnFace* laid = nullptr; ///< for both faces
+  const Layers* laid = nullptr;
 };
 
 /// Energy and gradient of a pair that is crushed.
@@ -42,7 +42,7 @@ struct Crushed
     for (int e = 0; e < 8; ++e)
       edges.exits[e] = edges.turns[e] = exits >> e & 1;
     if (joint.laid != nullptr)
-      layOn(pair, joint.laid);
+      pair.lay(true, joint.laid->parts);
     if (joint.crushing != nullptr)
       pair.beCrushed(*joint.crushing);
     pair.meet(offset, false, edges);
@@ -154,7 +154,8 @@ void expectGradients(Real warp, bool exits, bool isCrushed = true, bool isLaid =
     LinearOnFace laid[2];
     for (int f = 0; f < 2 && isLaid; ++f)
       laid[f] = someLayer(random, exits ? .02 : .1);
-    const Uneven joint{isCrushed ? &crushing : nullptr, isLaid ? laid : nullptr};
+    const Layers layers(laid);
+    const Uneven joint{isCrushed ? &crushing : nullptr, isLaid ? &layers : nullptr};
     const Crushed<Dim> e(pair.a, pair.b, joint, 0, edges);
     const Crushed<Dim> whole(pair.a, pair.b, {nullptr, joint.laid}, 0, edges);
     if (!(e.energy > 1e-5) || !(e.energy < .98 * whole.energy || !isCrushed))
@@ -253,7 +254,8 @@ TEST(CrushedPair, anUnevenGapThatIsAbsorbedLeavesTheClosureEven)
     EXPECT_GT(before.unevenGap(centroid, laid), 1e-4);
     const Real gap = -before.moments.volume / before.moments.area;
     PairPotential<3, Real> after(a, b, ContactPotentialScale(.1));
-    layOn(after, laid);
+    const Layers layers(laid);
+    after.lay(true, layers.parts);
     after.meet(gap + .01, false, {});
     EXPECT_NEAR(after.mostClosure, .01, 1e-14);
     EXPECT_NEAR(after.leastClosure(), .01, 1e-14);

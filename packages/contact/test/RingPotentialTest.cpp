@@ -19,8 +19,8 @@ struct Ring
   Real offset = 0, inverseDepth = 0;
   unsigned exits = 0;
   const LinearOnFace* crushing = nullptr;
-  const LinearOnFace* laid = nullptr; // for both faces
-  bool bonded = false;                // by its mean closure
+  const Layers* laid = nullptr;
+  bool bonded = false; // by its mean closure
   bool sharing = false;
 };
 
@@ -42,7 +42,7 @@ struct OfRing
     for (int e = 0; e < 8; ++e)
       edges.exits[e] = edges.turns[e] = ring.exits >> e & 1;
     if (ring.laid != nullptr)
-      layOn(pair, ring.laid);
+      pair.lay(true, ring.laid->parts);
     if (ring.crushing != nullptr)
       pair.beCrushed(*ring.crushing);
     pair.meet(ring.offset, ring.bonded, edges);
@@ -143,7 +143,8 @@ void expectRingGradients(bool strip, const Ring& ring, bool crushed = false, boo
     LinearOnFace laid[2];
     for (int f = 0; f < 2 && isLaid; ++f)
       laid[f] = {.05 * u(random), {.1 * u(random), 0}};
-    with.laid = isLaid ? laid : nullptr;
+    const Layers layers(laid);
+    with.laid = isLaid ? &layers : nullptr;
     const OfRing e(pair, with);
     if (!(e.energy > 1e-5))
       continue;

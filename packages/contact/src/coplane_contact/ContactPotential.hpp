@@ -91,7 +91,7 @@ public:
     tilt_ = closureTilt_ = inPlane(tilt);
     apart_ = inPlane(apart);
     atPoint_ = offset - dot(plane.normal, apart);
-    if (isLaid_)
+    if (laid_ != nullptr)
       putOnLayers();
     bonded_ = whole;
     const T least = smaller(a.area, b.area);
@@ -264,7 +264,7 @@ public:
     if constexpr (widthOf<T> == 1)
       if (uneven_)
         addCrushing(density, rim);
-    if (isLaid_)
+    if (laid_ != nullptr)
       carryLayers(push, first, rim);
     if constexpr (canRevolve)
       if (scale_.axisymmetric)
@@ -360,16 +360,11 @@ public:
   // Joints that have absorbed gaps which change along their faces (ContactPotentialCrushing.hpp).
   /// Before meet(): the gap at which the joint is just closed at a place is the offset less lengths
   /// that are linear over the faces, each carried along by its face.
-  /// @param of the lanes that have some; laid as Plane::laid [m]
+  /// @param of the lanes that have some; laid as Plane::laid, has to live on [m]
   KOKKOS_INLINE_FUNCTION void lay(const Mask& of, const T (&laid)[2][3])
   {
-    isLaid_ = true;
+    laid_ = laid;
     laidLanes_ = of && plane.opposed;
-    for (int f = 0; f < 2; ++f)
-    {
-      layer_[f].frame = AffineFrameOf<T>(shadow[f]);
-      layer_[f].length = layer_[f].frame.onPlane(laid[f][0], laid[f][1], laid[f][2]);
-    }
   }
   /// After meet(), with the offset 0: what lay() needs for a joint whose closure is the same all
   /// over the faces as at a place, and by how much that changes over a face, at most [m].
@@ -421,7 +416,10 @@ public:
     for (Real& exit : edges.exits)
       exit = 0;
     if constexpr (branchFree::widthOf<T> == 1)
-      closed.layAs(*this);
+    {
+      closed.laid_ = laid_;
+      closed.laidLanes_ = laidLanes_;
+    }
     closed.meet(offset, false, edges);
     return closed;
   }
@@ -587,14 +585,6 @@ private:
   KOKKOS_INLINE_FUNCTION void carryCrushing(Real push, const Vec2& first, Vec2 (&rim)[2][4]) const;
   /// Takes the layers of an uneven gap into the closure.
   KOKKOS_INLINE_FUNCTION void putOnLayers();
-  /// Those of another pair of the same faces.
-  KOKKOS_INLINE_FUNCTION void layAs(const PairPotential& other)
-  {
-    isLaid_ = other.isLaid_;
-    laidLanes_ = other.laidLanes_;
-    for (int f = 0; f < 2 && isLaid_; ++f)
-      layer_[f] = other.layer_[f];
-  }
   /// Adds what the energy changes with as faces carry their layers along. `push`: the sum of what
   /// it changes with the closure, `first`: that times the place.
   KOKKOS_INLINE_FUNCTION void carryLayers(const T& push, const Vec2Of<T>& first,
@@ -744,14 +734,8 @@ private:
   std::conditional_t<branchFree::widthOf<T> == 1, LinearOnPlane, Nothing> crushed_;
   /// Of what is crushed of the part in contact.
   std::conditional_t<branchFree::widthOf<T> == 1, ContactMoments<T>, Nothing> ofCrushed_;
-  bool isLaid_ = false; ///< some lanes
+  const T (*laid_)[3] = nullptr; ///< null: no lane has any
   Mask laidLanes_{false};
-  struct Layer
-  {
-    AffineFrameOf<T> frame;
-    LinearOnPlaneOf<T> length;
-  };
-  Layer layer_[2]; ///< that each face carries along
   /// The share from which on such pairs carry fully [-].
   static constexpr Real grownAt = 0.2;
   bool growing_ = false;

@@ -70,13 +70,13 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::putOnLayers()
 {
   using branchFree::choose;
   const T half = 0.5 * kappa_;
-  for (const Layer& layer : layer_)
+  for (int f = 0; f < 2; ++f)
   {
-    atPoint_ = choose(laidLanes_, atPoint_ - layer.length.atOrigin, atPoint_);
-    closureTilt_.x =
-        choose(laidLanes_, closureTilt_.x + half * layer.length.slope.x, closureTilt_.x);
-    closureTilt_.y =
-        choose(laidLanes_, closureTilt_.y + half * layer.length.slope.y, closureTilt_.y);
+    const LinearOnPlaneOf<T> layer =
+        AffineFrameOf<T>(shadow[f]).onPlane(laid_[f][0], laid_[f][1], laid_[f][2]);
+    atPoint_ = choose(laidLanes_, atPoint_ - layer.atOrigin, atPoint_);
+    closureTilt_.x = choose(laidLanes_, closureTilt_.x + half * layer.slope.x, closureTilt_.x);
+    closureTilt_.y = choose(laidLanes_, closureTilt_.y + half * layer.slope.y, closureTilt_.y);
   }
 }
 
@@ -88,10 +88,11 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::carryLayers(const T& push,
   using branchFree::choose;
   for (int f = 0; f < 2; ++f)
   {
+    const AffineFrameOf<T> frame(shadow[f]);
     Vec2Of<T> carried[4];
     for (int i = 0; i < face_[f]->count; ++i)
       carried[i] = rim[f][i];
-    carry(layer_[f].frame, layer_[f].length.slope, push, first, carried);
+    carry(frame, frame.onPlane(laid_[f][0], laid_[f][1], laid_[f][2]).slope, push, first, carried);
     for (int i = 0; i < face_[f]->count; ++i)
       rim[f][i] = {choose(laidLanes_, carried[i].x, rim[f][i].x),
                    choose(laidLanes_, carried[i].y, rim[f][i].y)};

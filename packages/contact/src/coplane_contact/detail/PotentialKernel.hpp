@@ -204,11 +204,10 @@ private:
       any = any || planes_.plane[i]->history.absorbedUnevenly;
     if (!any)
       return;
-    T laid[2][3];
     for (int f = 0; f < 2; ++f)
       for (int k = 0; k < 3; ++k)
-        laid[f][k] = planes_.each([&](const Plane& p) { return p.laid[f][k]; });
-    pair_.lay(planes_.each([](const Plane& p) { return p.history.absorbedUnevenly; }) > 0.0, laid);
+        laid_[f][k] = planes_.each([&](const Plane& p) { return p.laid[f][k]; });
+    pair_.lay(planes_.each([](const Plane& p) { return p.history.absorbedUnevenly; }) > 0.0, laid_);
   }
   KOKKOS_FORCEINLINE_FUNCTION void findClosure()
   {
@@ -725,6 +724,7 @@ private:
   Mask bonded_, done_;
   Mask bends_;                             ///< bonds that resist bending
   BentBonds<T> bent_;                      ///< how these are bent
+  T laid_[2][3];                           ///< as Plane::laid, where some have it [m]
   T overlap_;                              ///< of the shadows, per depth [m^2]
   Mask overlaps_;                          ///< whether that is enough to count
   T deepest_;                              ///< closure; negative: least distance [m]
