@@ -144,6 +144,8 @@ def sliced(mesh, deck):
     """A layer of hexahedra, 1 m thick, between planes of symmetry."""
     if deck.get("geometry") == "axisymmetric":
         raise CannotTell("a body of revolution is no slice")
+    if any(card.get("rigid") for card in deck["blocks"].values()):
+        raise CannotTell("a plane of symmetry holds all nodes of a rigid body or none")
     deck = copy.deepcopy(deck)
     deck.setdefault("conditions", []).extend({"type": "symmetry", "node_set": name, "normal": [0, 0, 1]} for name in ("told_back", "told_front"))
     for condition in deck["conditions"]:

@@ -129,14 +129,16 @@ mortar = {"model": "mortar", "tensile_strength": 1e6, "cohesion": 2e6, "tension_
 laws = {
     "bonded": (bond, pressure, 1e-3),
     "bent_bonds": ({**bond, "resists_bending": True}, pressure, 1e-3),
-    "crushed": (mortar, 2e7, 2e-3),
+    "crushed": (mortar, 2e7, 1e-3),
 }
 for law, (card, load, bound) in laws.items():
     found = {}
     for kind in ("matched", "other", "finer_rock"):
         recipe, deck = pressed(*meshes[kind], load=load, **card)
-        if law == "crushed":
-            deck["damping"] = {"local": 0.5, "until_energy_ratio": 1e-10, "until_force_ratio": 1e-5}
+        if law == "crushed":  # slowly, in many periods of the ring: damping would pass the closure of rest, or go by the signs of velocities
+            del deck["damping"]
+            deck["time"] = {"end": 0.025}
+            deck["conditions"][-1]["value"] = f"{load}*(1 - cos(_pi*min(t/0.02, 1)))/2"
         run = case.run(f"{law}_{kind}", recipe, deck, remainder=1e-4)
         found[kind] = run
         if kind == "matched":
@@ -144,7 +146,7 @@ for law, (card, load, bound) in laws.items():
         same = of_lining(found["matched"]).mean()
         case.check(f"{law}, {kind}: inside of the lining, mean displacement over that of meshes that match", of_lining(run).mean() / same, 1, bound)
         if law == "crushed":
-            case.check(f"{law}, {kind}: work of crushing over that of meshes that match", run.history["contact_hysteresis"][-1] / found["matched"].history["contact_hysteresis"][-1], 1, 3e-2)
+            case.check(f"{law}, {kind}: work of crushing over that of meshes that match", run.history["contact_hysteresis"][-1] / found["matched"].history["contact_hysteresis"][-1], 1, 1e-2)
 
 # A whole ring that turns in the rock by 0.05 m, a third of a face of the lining: no energy is made or lost, whatever stops it.
 for name, around, speed in (("turning_matched", (96, 96), 1.0), ("turning", (96, 64), 1.0), ("turning_coarse", (96, 24), 0.1)):
@@ -206,7 +208,7 @@ for name, height, divisions, waves in (("fault", 0.05, (6, 6), True), ("fault_of
             deck["joints"]["joint"]["friction"] = friction
             kind = f"{name}_slides_{'smooth' if friction == 0 else 'rough'}"
             h = case.run(kind, recipe, deck, change_mesh=bend).history
-            case.check(f"{kind}: contact remainder over the kinetic energy", numpy.abs(h["contact_remainder"]).max() / h["kinetic"][0], 0, 1e-3)
+            case.check(f"{kind}: contact remainder over the kinetic energy", numpy.abs(h["contact_remainder"]).max() / h["kinetic"][0], 0, 1e-3, kept="contact remainder")
 
 # Forces along the common normal absorb the mean of a gap, and say so.
 recipe, deck = lining(2, (24, 16))
