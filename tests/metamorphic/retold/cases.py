@@ -76,6 +76,14 @@ CASES = {
     "rigid_motion": Retold(["mirrored", "renumbered", "turned"], other=dict.fromkeys(["millimetres", "powers_of_two"], "its check reads a table of the run as it is, in the units of the run")),
     "V39_gas_shocks": Retold(["mirrored", "turned"]),
     "sharp_contacts": Retold([], ["refined:slab", "refined:plate"], long=True, base=False),
+    "V20_hertz_ball": Retold([], base=False, other={"declared": "a joint that is declared to be closed bears without a gap, and is no contact of Hertz"}),
+    # Bricks on dry joints stick and slip for long, as those of WALL; at 1 km a closure is known to some thousandths.
+    "V56_brick_wall": Retold([], base=False, bounds={**dict.fromkeys(["turned", "quarter", "mirrored", "renumbered"], 1e-5), "moved": None}),
+    "bent_rows": Retold([], base=False),
+    "debris": Retold([], base=False),
+    "subcycling": Retold(["mirrored", "moved"], bounds={"turned": 1e-3},  # which elements are substepped hangs on ties
+                         other={"split": "counts the elements that are substepped", **dict.fromkeys(["turned", "quarter"], "its probe has a component of the stress")},
+                         apart={"rest": "nothing moves", **dict.fromkeys(["load", "load, small steps"], "its probe lies in the middle between two nodes")}),
     "column_3d": Retold(["turned", "declared"]),
     "cut_rock_2d": Retold(["mirrored", "renumbered"]),
     "explosion_3d": Retold(["mirrored", "restarted"]),
@@ -90,7 +98,6 @@ NONE = "no contact"
 OWN = "compares runs with each other, or what is refused, and not with an answer"
 ITSELF = "turned, tilted or mirrored by its own check"
 ELSEWHERE = "its runs are made by coplane.capacity, which the tellings do not see"
-TRIED = "not tried"
 LONG = "minutes for one way of telling it: not told yet"
 
 # Verification cases and examples that are not told at all, and why.
@@ -103,7 +110,8 @@ UNTOLD = {
     **dict.fromkeys(["V87_cracked_beam", "V87_lines", "V93_crushed_joint", "declared_joints", "fast_blocks", "ring_contacts", "symmetry"], ITSELF),
     **{name: SAME.format(case) for name, case in (("arch_2d", "V53"), ("ball_wall_2d", "V57"), ("bars_2d", "V21"), ("rocking_block_2d", "V51"))},
     "V84_factor_of_safety": ELSEWHERE,
+    "deep_slides": "soft bodies that slide tenths of an element deep in each other: which events come hangs on round-off, motions are up to 0.3 apart, and one scene of 29 is stopped when it is turned",
+    "mass_scaling": "round-off decides in which cycle a mass is raised: turned 2e-6, moved by 1 km 2e-3 apart; and it restarts runs by itself",
     "rest_under_loads": "the bar of relaxation, which is told; its answers are when a run ends, and what the log says",
-    **dict.fromkeys(["V56_brick_wall", "joint_laws", "perforation_3d", "rock_slope_2d", "shaken_stones_2d", "tunnel_2d"], LONG),
-    **dict.fromkeys(["V20_hertz_ball", "bent_rows", "debris", "deep_slides", "mass_scaling", "subcycling"], TRIED),
+    **dict.fromkeys(["joint_laws", "perforation_3d", "rock_slope_2d", "shaken_stones_2d", "tunnel_2d"], LONG),
 }  # fmt: skip

@@ -115,6 +115,9 @@ def turned_deck(deck, matrix, offset=(0, 0, 0), velocity=(0, 0, 0)):
         card["points"] = [point(place)[: len(place)] for place in card["points"]]
         if "copy_step" in card:
             card["copy_step"] = turn(card["copy_step"])
+    for probe in deck.get("history", {}).get("probes", []):
+        if "point" in probe:
+            probe["point"] = point(probe["point"])
     conditions = []
     for condition in deck.get("conditions", []):
         conditions += _turned_condition(condition, matrix, velocity, turn, point, along, hand, places)
