@@ -87,7 +87,8 @@ void reportUnevenGaps(const Contact& contact, const ContactCensus& c)
   if (c.uneven == 0)
     return;
   if (contact.options().forces == ContactOptions::Forces::Potential)
-    logInfo("    {} of these planes absorb gaps that change along the faces, by up to {:.3e} m",
+    logInfo("    {} pairs, those beside each other among them, absorb gaps that change along the "
+            "faces, by up to {:.3e} m",
             c.uneven, c.changeOfGap);
   else
     logWarning(

@@ -96,7 +96,7 @@ for name, dimension, around, split in (("rest", 2, (24, 16), None), ("rest_coars
     case.check_equal(f"{name}: exit code", run.code, 0)
     case.check(f"{name}: kinetic energy [J]", run.history["kinetic"].max(), 0, 1e-15)
     case.check(f"{name}: energy in the joint [J]", run.history["contact_stored"].max(), 0, 1e-15)
-    case.check_equal(f"{name}: the log tells of gaps that change along the faces", "absorb gaps that change along the faces, by up to" in run.output, True)
+    case.check_equal(f"{name}: the log tells of gaps that change along the faces", "absorb gaps that change along the faces, by up to" in " ".join(run.output.split()), True)
 
 # Pressure inside: Lame.
 meshes = {"matched": (2, (24, 24), None), "other": (2, (24, 16), None), "finer_rock": (2, (16, 24), None), "coarse_rock": (2, (24, 6), None), "matched_3d": (3, (12, 12), None),

@@ -92,6 +92,12 @@ void countLonelyFaces(const Contact& contact, const std::vector<char>& declared,
   keepLowest();
   census.firstLonelyFaces = lonely;
 }
+/// Of a declared joint: faces beside each other, which share no area yet, are not.
+bool isClosed(const Plane& plane)
+{
+  return plane.declared && plane.overlap > 0;
+}
+
 /// What this rank sees of the pairs.
 struct Survey
 {
@@ -133,7 +139,7 @@ private:
         contact.rules().between(contact.faces()[a].group, contact.faces()[b].group).declared;
     if (joint && contact.isOpposed(plane))
       declared[a] = declared[b] = 1;
-    if (plane.declared)
+    if (isClosed(plane))
       closed[a] = closed[b] = 1;
     if (plane.countedHere)
       count(plane, joint, contact.opposition(plane) > opposedAcrossJoint);
@@ -149,12 +155,12 @@ private:
     most[0] = std::max(most[0], -plane.fit.normalStiffness);
     most[1] = std::max(most[1], plane.fit.normalStiffness);
     const CensusLengths::Pair pair{{plane.faceId[0], plane.faceId[1]}, plane.gap};
-    if (plane.declared)
+    most[2] = std::max(most[2], plane.changeOfGap());
+    n[Uneven] += plane.history.absorbedUnevenly;
+    if (isClosed(plane))
     {
       ++n[Closed];
       n[Bonded] += plane.history.bonded;
-      n[Uneven] += plane.history.absorbedUnevenly;
-      most[2] = std::max(most[2], plane.changeOfGap());
       const Real absorbed = plane.offset - plane.closure;
       joints.push_back({{{pair.faceId[0], pair.faceId[1]}, absorbed}, std::abs(absorbed)});
     }
@@ -187,7 +193,7 @@ std::vector<std::string> itemsWithoutPartner(const Contact& contact)
   for (std::size_t p = 0; p < contact.planes().size(); ++p)
   {
     const Plane& plane = contact.planes()[p];
-    if (!plane.declared || !plane.countedHere || plane.face[0] < 0)
+    if (!isClosed(plane) || !plane.countedHere || plane.face[0] < 0)
       continue;
     const int item =
         contact.rules()

@@ -31,10 +31,11 @@ struct ContactCensus
   /// Lengths below this fraction of the skin are rounding of the mesh's coordinates.
   static constexpr Real roundOff = 1e-8;
 
-  std::int64_t pairs = 0;                  ///< candidates
-  std::int64_t declaredClosed = 0;         ///< planes of declared joints
-  std::int64_t bonded = 0;                 ///< of them
-  std::int64_t uneven = 0;                 ///< of them, whose gap changes along the faces
+  std::int64_t pairs = 0;          ///< candidates
+  std::int64_t declaredClosed = 0; ///< planes of declared joints
+  std::int64_t bonded = 0;         ///< of them
+  /// Whose gap changes along the faces: of them, and of pairs beside each other.
+  std::int64_t uneven = 0;
   Real changeOfGap = 0;                    ///< the most that it changes over a face [m]
   std::int64_t declaredWithoutOverlap = 0; ///< pairs of such joints that only neighbour each other
   std::int64_t touching = 0;               ///< other pairs whose faces meet, but for round-off

@@ -286,6 +286,23 @@ private:
     }
     bool operator==(const Coinciding& o) const { return face == o.face && other == o.other; }
   };
+  /// Faces by their places, and the gap between them [m].
+  struct FacesOnEachOther
+  {
+    std::int32_t face[2];
+    Real gap;
+  };
+  /// That a body lies on a face, across a gap [m].
+  struct BodyOnFace
+  {
+    GlobalId face;
+    int body;
+    Real gap;
+
+    auto key() const { return std::tuple(face, body, gap); }
+    bool operator<(const BodyOnFace& o) const { return key() < o.key(); }
+    bool operator==(const BodyOnFace& o) const { return key() == o.key(); }
+  };
   /// A face of this rank that another one has a copy of.
   struct WantedFace
   {
@@ -333,6 +350,10 @@ private:
   /// has pairs of. Only the owner of a ghost may have the face on which it lies. Collective.
   std::vector<Coinciding> coincidingFaces(const ConstNodeVectors& x,
                                           const std::vector<std::size_t>& slots) const;
+  /// The bodies that lie on the faces in question, by pairs of faces that lie on each other,
+  /// sorted. Only the owner of a ghost may know all of those. Collective.
+  std::vector<BodyOnFace> bodiesOn(std::vector<int> asked,
+                                   const std::vector<FacesOnEachOther>& pairs) const;
   void listSlotsOfFaces(int ownedNodes);
   void planesHaveChanged()
   {

@@ -1,4 +1,5 @@
 #include <coplane_contact/Contact.hpp>
+#include <coplane_contact/ContactTables.hpp>
 #include <coplane_contact/detail/DeclaredJoints.hpp>
 #include <coplane_contact/detail/NodesOfFace.hpp>
 #include <coplane_contact/detail/PotentialKernel.hpp>
@@ -27,12 +28,27 @@ struct Overlap
   bool even = true;       ///< but for round-off
 };
 
-/// The whole overlap of two faces as the potential sees it; without area, that of faces beside
-/// each other, whose gap is the one between their centres.
+/// Of two faces in one plane the place between those corners that are nearest to each other.
+Vec2 nearestPlace(const Shadow& a, const Shadow& b)
+{
+  Vec2 place;
+  Real least = infinity;
+  for (int i = 0; i < a.count; ++i)
+    for (int j = 0; j < b.count; ++j)
+      if (const Vec2 apart = b.p[j] - a.p[i]; dot(apart, apart) < least)
+      {
+        least = dot(apart, apart);
+        place = 0.5 * (a.p[i] + b.p[j]);
+      }
+  return place;
+}
+
+/// The whole overlap of two faces as the potential sees it; without area, or with little, that of
+/// faces beside each other, whose gap is the one where they are nearest to each other.
 template <int Dim>
 Overlap wholeOverlap(const HalfStepFace& a, const HalfStepFace& b, const ContactOptions& options)
 {
-  constexpr Real roundOff = 1e-9; // of the size of a face
+  constexpr Real roundOff = 1e-6; // of the size of a face; of coordinates of single precision
   Overlap overlap;
   Patch& patch = overlap.patch;
   PairPotential<Dim, Real> pair(a, b, ContactPotentialScale(options));
@@ -42,14 +58,14 @@ Overlap wholeOverlap(const HalfStepFace& a, const HalfStepFace& b, const Contact
   patch.overlap = pair.overlap * pair.depth;
   pair.oppose(0);
   patch.area = pair.opposedness * pair.moments.area;
-  patch.centroid = pair.betweenCenters();
+  patch.centroid = nearestPlace(pair.shadow[0], pair.shadow[1]);
   overlap.gap = -pair.closureAt(patch.centroid);
-  if (patch.area > 0)
+  if (patch.area > sliverOfJoint * std::min(a.area, b.area) * pair.depth)
   {
     patch.centroid = (1 / pair.moments.area) * pair.moments.areaMoment;
-    pair.weightsAt(patch.centroid, patch.centroidWeights);
     overlap.gap = -pair.moments.volume / pair.moments.area;
   }
+  pair.weightsAt(patch.centroid, patch.centroidWeights);
   overlap.even = !(pair.unevenGap(patch.centroid, overlap.uneven) >
                    roundOff * faceSize(std::min(a.area, b.area), Dim));
   return overlap;
@@ -111,8 +127,8 @@ Real closeUnder(const SymTensor& stress, Real pressure, const JointLaw& law, Rea
 struct DeclaredPlane
 {
   Real area = 0; ///< [m^2], 0 if they do not
-  /// Without area: they lie beside each other, as the next faces on both sides of a joint do, and
-  /// their gap is uneven. What they come to share is a part of the joint.
+  /// With no area, or hardly any: they lie beside each other, as the next faces on both sides of a
+  /// joint do, and their gap is uneven. What they come to share is a part of the joint.
   bool beside = false;
   Vec3 normal{};
   Overlap overlap;
@@ -124,7 +140,7 @@ template <int Dim>
 DeclaredPlane declaredPlane(const FaceNodes& nodesA, const FaceNodes& nodesB, bool covered,
                             const ContactOptions& options)
 {
-  constexpr Real roundOff = 1e-9; // of a normal
+  constexpr Real roundOff = 1e-6; // of a normal
   const HalfStepFace a = stepA_halfStepFace<Dim>(nodesA, 0), b = stepA_halfStepFace<Dim>(nodesB, 0);
   if (covered && norm(a.normal + b.normal) < roundOff)
     return {};
@@ -135,20 +151,21 @@ DeclaredPlane declaredPlane(const FaceNodes& nodesA, const FaceNodes& nodesB, bo
   const Patch& patch = overlap.patch;
   const Real smaller = std::min(a.area, b.area);
   const Real cosine = dot(a.normal, b.normal), size = faceSize(smaller, Dim);
-  if (patch.area > options.areaMin * smaller * depthOf(trial, options).at(patch.centroid.x))
-    return covered || !lieOnEachOther(cosine, overlap.gap, size)
-               ? DeclaredPlane{}
-               : DeclaredPlane{patch.area, false, trial.normal, overlap,
-                               stepG_placePointOfContact(patch, a, b)};
-  const bool beside = !overlap.even && options.forces == ContactOptions::Forces::Potential &&
-                      lieBesideEachOther(cosine, overlap.gap, size);
-  return {0, beside, trial.normal, overlap, 0.5 * (a.center + b.center)};
+  const Real depth = depthOf(trial, options).at(patch.centroid.x);
+  const Real area = patch.area > options.areaMin * smaller * depth ? patch.area : 0;
+  if (area > 0 && !covered && lieOnEachOther(cosine, overlap.gap, size))
+    return {area, false, trial.normal, overlap, stepG_placePointOfContact(patch, a, b)};
+  if (area > sliverOfJoint * smaller * depth || overlap.even ||
+      options.forces != ContactOptions::Forces::Potential ||
+      !lieBesideEachOther(cosine, overlap.gap, size))
+    return {};
+  return {area, true, trial.normal, overlap, 0.5 * (a.center + b.center)};
 }
 
 /// Without stress yet.
 void declare(const DeclaredPlane& found, Plane& plane)
 {
-  plane.declared = !found.beside;
+  plane.declared = true;
   plane.state = PlaneState::Open;
   plane.normal = found.normal;
   plane.overlap = found.overlap.patch.overlap;
@@ -157,6 +174,41 @@ void declare(const DeclaredPlane& found, Plane& plane)
   plane.absorb(plane.gap);
   for (int f = 0; f < 2 && !found.overlap.even; ++f)
     plane.layOn(f, found.overlap.uneven[f]);
+}
+
+/// Calls f for the bodies that lie on a face.
+template <class Bodies, class F>
+void forBodiesOn(const Bodies& bodies, GlobalId face, const F& f)
+{
+  for (auto one = std::lower_bound(bodies.begin(), bodies.end(), face,
+                                   [](const auto&b, GlobalId id) { return b.face < id; });
+       one != bodies.end() && one->face == face; ++one)
+    f(*one);
+}
+
+template <class Bodies>
+bool liesOn(const Bodies& bodies, GlobalId face, int body)
+{
+  bool does = false;
+  forBodiesOn(bodies, face, [&](const auto& one) { does = does || one.body == body; });
+  return does;
+}
+
+/// Whether a third body lies on both faces, nearer to them than they are to each other: a layer
+/// that is thin for its faces.
+template <class Bodies>
+bool haveBodyBetween(const Bodies& bodies, const Face& a, const Face& b, Real gap)
+{
+  bool has = false;
+  forBodiesOn(bodies, a.id,
+              [&](const auto& onA)
+              {
+                if (onA.body != a.body && onA.body != b.body)
+                  forBodiesOn(bodies, b.id,
+                              [&](const auto& onB)
+                              { has = has || (onB.body == onA.body && onA.gap + onB.gap < gap); });
+              });
+  return has;
 }
 
 /// Whether two faces lie on each other corner by corner, as the two sides of a cut do.
@@ -222,6 +274,39 @@ Contact::coincidingFaces(const ConstNodeVectors& x, const std::vector<std::size_
   return found;
 }
 
+std::vector<Contact::BodyOnFace> Contact::bodiesOn(std::vector<int> asked,
+                                                   const std::vector<FacesOnEachOther>& pairs) const
+{
+  std::vector<GlobalId> here, elsewhere;
+  for (const int face : asked)
+    (faces()[face].ownedHere ? here : elsewhere).push_back(faces()[face].id);
+  const auto sortOut = [](auto& all)
+  {
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+  };
+  sortOut(elsewhere);
+  std::vector<GlobalId> byOthers = comm_->allGather(elsewhere);
+  sortOut(byOthers);
+  here.insert(here.end(), byOthers.begin(), byOthers.end());
+  sortOut(here);
+  std::vector<BodyOnFace> found, told;
+  for (const FacesOnEachOther& pair : pairs)
+    for (int side = 0; side < 2; ++side)
+    {
+      const Face &face = faces()[pair.face[side]], &other = faces()[pair.face[1 - side]];
+      if (!face.ownedHere || !std::binary_search(here.begin(), here.end(), face.id))
+        continue;
+      found.push_back({face.id, other.body, std::abs(pair.gap)});
+      if (std::binary_search(byOthers.begin(), byOthers.end(), face.id))
+        told.push_back(found.back());
+    }
+  told = comm_->allGather(told);
+  found.insert(found.end(), told.begin(), told.end());
+  sortOut(found);
+  return found;
+}
+
 Contact::Overpressed Contact::closeDeclaredJoints(const ConstNodeVectors& x,
                                                   const StressOfBlock& stressOfBlock)
 {
@@ -248,6 +333,32 @@ Contact::Overpressed Contact::closeDeclaredJoints(const ConstNodeVectors& x,
     return first != coinciding.end() && first->face == face &&
            !std::binary_search(first, coinciding.end(), Coinciding{face, other});
   };
+  const auto close = [&](std::size_t slot, const DeclaredPlane& found)
+  {
+    const Face& faceA = faces()[planes_.slots().faces(slot).face[0]];
+    const Face& faceB = faces()[planes_.slots().faces(slot).face[1]];
+    Plane& plane = planes_.wake(slot); // neighbours pass on nothing to what is closed here
+    declare(found, plane);
+    const Real compression =
+        closeUnder(mean(stressOfBlock(faceA.block, plane.pointOfContact),
+                        stressOfBlock(faceB.block, plane.pointOfContact)),
+                   0.5 * (faceA.pressure + faceB.pressure), lawOf(plane), found.area, plane);
+    if (!lawOf(plane).curve.crushing.acts() || !plane.countedHere ||
+        !(compression > (1 + rounding) * strengthOf(plane.joint)))
+      return;
+    const Overpressed here{worst.planes + 1,
+                           plane.joint,
+                           compression,
+                           plane.pointOfContact,
+                           {plane.faceId[0], plane.faceId[1]}};
+    if (isWorse(here, worst))
+      worst = here;
+    else
+      ++worst.planes;
+  };
+  // Whether faces beside each other, or apart, belong to one joint hangs on what lies on them.
+  std::vector<std::pair<std::size_t, DeclaredPlane>> doubtful;
+  std::vector<FacesOnEachOther> onEachOther;
   for (const std::size_t slot : slots)
   {
     const SlotFaces& pair = planes_.slots().faces(slot);
@@ -258,28 +369,27 @@ Contact::Overpressed Contact::closeDeclaredJoints(const ConstNodeVectors& x,
     const FaceNodes a = nodesOf(faceA, x), b = nodesOf(faceB, x);
     const DeclaredPlane found = dimension_ == 2 ? declaredPlane<2>(a, b, covered, options_)
                                                 : declaredPlane<3>(a, b, covered, options_);
-    // What slides on takes over a bond from beside, which needs no gap.
-    const int joint = rules_.between(faceA.group, faceB.group).joint;
-    if (!(found.area > 0) && !(found.beside && !rules_.joints[std::size_t(joint)].law.cohesive()))
-      continue;
-    Plane& plane = planes_.wake(slot); // neighbours pass on nothing to what is closed here
-    declare(found, plane);
-    const Real compression =
-        closeUnder(mean(stressOfBlock(faceA.block, plane.pointOfContact),
-                        stressOfBlock(faceB.block, plane.pointOfContact)),
-                   0.5 * (faceA.pressure + faceB.pressure), lawOf(plane), found.area, plane);
-    if (!lawOf(plane).curve.crushing.acts() || !plane.countedHere ||
-        !(compression > (1 + rounding) * strengthOf(plane.joint)))
-      continue;
-    const Overpressed here{worst.planes + 1,
-                           plane.joint,
-                           compression,
-                           plane.pointOfContact,
-                           {plane.faceId[0], plane.faceId[1]}};
-    if (isWorse(here, worst))
-      worst = here;
-    else
-      ++worst.planes;
+    const bool lie = found.area > 0 && !found.beside;
+    if (lie)
+      onEachOther.push_back({{pair.face[0], pair.face[1]}, found.overlap.gap});
+    if (found.beside || (lie && !(std::abs(found.overlap.gap) < rounding)))
+      doubtful.emplace_back(slot, found);
+    else if (lie)
+      close(slot, found);
+  }
+  std::vector<int> asked;
+  for (const auto& [slot, found] : doubtful)
+    for (const std::int32_t face : planes_.slots().faces(slot).face)
+      asked.push_back(face);
+  const std::vector<BodyOnFace> bodies = bodiesOn(std::move(asked), onEachOther);
+  for (const auto& [slot, found] : doubtful)
+  {
+    const Face& faceA = faces()[planes_.slots().faces(slot).face[0]];
+    const Face& faceB = faces()[planes_.slots().faces(slot).face[1]];
+    if (!haveBodyBetween(bodies, faceA, faceB, found.overlap.gap) &&
+        (!found.beside ||
+         (liesOn(bodies, faceA.id, faceB.body) && liesOn(bodies, faceB.id, faceA.body))))
+      close(slot, found);
   }
   planes_.listWoken();
   planesHaveChanged();

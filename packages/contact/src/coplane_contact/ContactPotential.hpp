@@ -369,11 +369,6 @@ public:
   /// After meet(), with the offset 0: what lay() needs for a joint whose closure is the same all
   /// over the faces as at a place, and by how much that changes over a face, at most [m].
   KOKKOS_INLINE_FUNCTION Real unevenGap(const Vec2& place, LinearOnFace (&laid)[2]) const;
-  /// Between the centres of the faces.
-  KOKKOS_INLINE_FUNCTION Vec2 betweenCenters() const
-  {
-    return 0.5 * (AffineFrame(shadow[0]).center + AffineFrame(shadow[1]).center);
-  }
 
   // Joints that are crushed unevenly (ContactPotentialCrushing.hpp), T = Real only. The closure
   // counts from where the joint is crushed to, max(0, L) with L linear over face 0, which carries

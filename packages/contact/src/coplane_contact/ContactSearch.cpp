@@ -208,7 +208,7 @@ void Contact::findLimits(const ConstNodeVectors& x, const ConstNodeVectors& v, R
   std::vector<Real> offset{0};
   for (std::size_t p = 0; p < planes().size(); ++p)
     if (const Plane& plane = planes()[p]; plane.isBorn())
-      offset[0] = std::max(offset[0], plane.farthestOffset());
+      offset[0] = std::max(offset[0], plane.offset);
   comm_->max(offset);
   reach_.begin(offset[0], motionAhead(v, ahead));
   firstHalf_.bins = step1_globalSpaceLimits(localFaces(), x, reach_.rules(), *comm_);
@@ -287,8 +287,12 @@ void Contact::measureDistances(const ConstNodeVectors& x, const ConstNodeVectors
               [&](const int slot)
               {
                 const SlotFaces& pair = slots(slot);
-                if (pair.face[0] >= 0)
-                  mayReach(slot) = lawOf(pair).mayReachOut();
+                if (pair.face[0] < 0)
+                  return;
+                // What has absorbed an uneven gap may act beyond the offset.
+                const Plane* const plane = planes_.slots().plane[slot];
+                mayReach(slot) = lawOf(pair).mayReachOut() ||
+                                 (plane != nullptr && plane->history.absorbedUnevenly);
               });
   CandidateRules rules = reach_.rules();
   Motion& motion = rules.motion;

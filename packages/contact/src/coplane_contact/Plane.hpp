@@ -208,15 +208,6 @@ struct alignas(64) Plane
     hysteresisDue() = 0;
   }
   KOKKOS_INLINE_FUNCTION Real& loadedArea() { return closureMemory[1]; }
-  /// A gap up to which faces of the plane may act on each other [m].
-  KOKKOS_INLINE_FUNCTION Real farthestOffset() const
-  {
-    Real most = offset;
-    for (int f = 0; f < 2 && history.absorbedUnevenly; ++f)
-      for (const Real part : laid[f])
-        most += std::fabs(part);
-    return most;
-  }
   KOKKOS_INLINE_FUNCTION void layOn(int f, const LinearOnFace& part)
   {
     history.absorbedUnevenly = true;

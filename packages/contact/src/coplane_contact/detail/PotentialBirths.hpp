@@ -38,10 +38,24 @@ KOKKOS_FORCEINLINE_FUNCTION bool PotentialCycle<Dim, T>::carries(Plane& plane, i
   if (stepE_planeExists(plane) && (carried || plane.sighting != Sighting::Woken))
     return true;
   const bool isLedge = before == Before::SharedNoArea && isHigherThanBeside(plane, i);
+  const Real warped = before == Before::SharedNoArea && !isLedge ? closedByWarp(plane, i) : 0;
   stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i), leastGaps_[i]);
   if (closedBefore || isLedge)
     beginHere(plane, i);
-  return !closedBefore && !isLedge && plane.sighting != Sighting::Woken;
+  plane.offset -= warped;
+  return !closedBefore && !isLedge && !(warped > 0) && plane.sighting != Sighting::Woken;
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION Real PotentialCycle<Dim, T>::closedByWarp(const Plane& plane, int i) const
+{
+  if (Dim == 2 || plane.history.bonded)
+    return 0;
+  const HalfStepFace a = placeOf(a_, i), b = placeOf(b_, i);
+  const Real beyond = (beyondNodes(a) + beyondNodes(b)) / branchFree::lane(pair_.kappa(), i);
+  const Real explained = plane.isBorn() || plane.isInherited() ? plane.closure : 0;
+  const Real closed = branchFree::lane(deepest_, i) - permanents_[i] - explained;
+  return closed < beyond ? branchFree::positivePart(closed) : beyond;
 }
 
 template <int Dim, class T>

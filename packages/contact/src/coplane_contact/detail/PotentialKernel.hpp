@@ -279,6 +279,10 @@ private:
   /// Whether a pair that comes in from the side stands higher, by a gap that a joint beside it has
   /// absorbed, than that joint does: deeper closed than it, and by more than the step.
   KOKKOS_INLINE_FUNCTION bool isHigherThanBeside(const Plane& plane, int i) const;
+  /// What the mean planes of warped faces lie beyond their nodes closes a pair that comes in from
+  /// the side before its faces touch: that is no closure. @returns as much as that may be, of what
+  /// no neighbour explains [m]
+  KOKKOS_INLINE_FUNCTION Real closedByWarp(const Plane& plane, int i) const;
   /// What was closed before it carries has no energy, whatever its neighbours passed on: its
   /// surface lies where the faces are deepest in each other, on top of what the joint has closed
   /// for good. A bond, which carries by its mean closure, is stress-free where it is, unless its
