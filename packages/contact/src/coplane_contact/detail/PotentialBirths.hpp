@@ -27,7 +27,11 @@ KOKKOS_FORCEINLINE_FUNCTION bool PotentialCycle<Dim, T>::carries(Plane& plane, i
                                                        : stepBefore(plane, i);
   const bool closedBefore = before == Before::Closed;
   if (!carried && !(plane.declared && plane.isNew()) && !plane.history.bonded)
+  {
     refuse(plane, i, closedBefore);
+    if (before == Before::SharedNoArea && isOpposedByWarp(i))
+      plane.refusal = Refusal::Deep;
+  }
   if (plane.isRefused())
     return false;
   if (!(plane.birthArea[0] > 0))
@@ -44,6 +48,16 @@ KOKKOS_FORCEINLINE_FUNCTION bool PotentialCycle<Dim, T>::carries(Plane& plane, i
     beginHere(plane, i);
   plane.offset -= warped;
   return !closedBefore && !isLedge && !(warped > 0) && plane.sighting != Sighting::Woken;
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION bool PotentialCycle<Dim, T>::isOpposedByWarp(int i) const
+{
+  if (Dim == 2)
+    return false;
+  const HalfStepFace a = placeOf(a_, i), b = placeOf(b_, i);
+  const Real turned = 2 * (beyondNodes(a) / std::sqrt(a.area) + beyondNodes(b) / std::sqrt(b.area));
+  return -dot(a.normal, b.normal) < turned;
 }
 
 template <int Dim, class T>

@@ -279,6 +279,9 @@ private:
   /// Whether a pair that comes in from the side stands higher, by a gap that a joint beside it has
   /// absorbed, than that joint does: deeper closed than it, and by more than the step.
   KOKKOS_INLINE_FUNCTION bool isHigherThanBeside(const Plane& plane, int i) const;
+  /// Whether warped faces oppose each other by less than their normals change along them: near a
+  /// right angle. What comes in from the side so does not meet the other one.
+  KOKKOS_INLINE_FUNCTION bool isOpposedByWarp(int i) const;
   /// What the mean planes of warped faces lie beyond their nodes closes a pair that comes in from
   /// the side before its faces touch: that is no closure. @returns as much as that may be, of what
   /// no neighbour explains [m]
