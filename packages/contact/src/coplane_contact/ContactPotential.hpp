@@ -366,6 +366,13 @@ public:
     laid_ = laid;
     laidLanes_ = of && plane.opposed;
   }
+  /// A gap of the faces at a place, with what the layers there have of it [m].
+  KOKKOS_INLINE_FUNCTION T overLayers(T gap, const Vec2Of<T>& place) const
+  {
+    for (int f = 0; f < 2 && laid_ != nullptr; ++f)
+      gap = branchFree::choose(laidLanes_, gap + layer(f).at(place), gap);
+    return gap;
+  }
   /// After meet(), with the offset 0: what lay() needs for a joint whose closure is the same all
   /// over the faces as at a place, and by how much that changes over a face, at most [m].
   KOKKOS_INLINE_FUNCTION Real unevenGap(const Vec2& place, LinearOnFace (&laid)[2]) const;
@@ -578,6 +585,10 @@ private:
   /// The same of what hangs on the closure of crushed places by its sum over them: `push`, and
   /// `first`, that times the place.
   KOKKOS_INLINE_FUNCTION void carryCrushing(Real push, const Vec2& first, Vec2 (&rim)[2][4]) const;
+  KOKKOS_INLINE_FUNCTION LinearOnPlaneOf<T> layer(int f) const
+  {
+    return AffineFrameOf<T>(shadow[f]).onPlane(laid_[f][0], laid_[f][1], laid_[f][2]);
+  }
   /// Takes the layers of an uneven gap into the closure.
   KOKKOS_INLINE_FUNCTION void putOnLayers();
   /// Adds what the energy changes with as faces carry their layers along. `push`: the sum of what

@@ -72,11 +72,10 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::putOnLayers()
   const T half = 0.5 * kappa_;
   for (int f = 0; f < 2; ++f)
   {
-    const LinearOnPlaneOf<T> layer =
-        AffineFrameOf<T>(shadow[f]).onPlane(laid_[f][0], laid_[f][1], laid_[f][2]);
-    atPoint_ = choose(laidLanes_, atPoint_ - layer.atOrigin, atPoint_);
-    closureTilt_.x = choose(laidLanes_, closureTilt_.x + half * layer.slope.x, closureTilt_.x);
-    closureTilt_.y = choose(laidLanes_, closureTilt_.y + half * layer.slope.y, closureTilt_.y);
+    const LinearOnPlaneOf<T> one = layer(f);
+    atPoint_ = choose(laidLanes_, atPoint_ - one.atOrigin, atPoint_);
+    closureTilt_.x = choose(laidLanes_, closureTilt_.x + half * one.slope.x, closureTilt_.x);
+    closureTilt_.y = choose(laidLanes_, closureTilt_.y + half * one.slope.y, closureTilt_.y);
   }
 }
 
@@ -88,11 +87,10 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::carryLayers(const T& push,
   using branchFree::choose;
   for (int f = 0; f < 2; ++f)
   {
-    const AffineFrameOf<T> frame(shadow[f]);
     Vec2Of<T> carried[4];
     for (int i = 0; i < face_[f]->count; ++i)
       carried[i] = rim[f][i];
-    carry(frame, frame.onPlane(laid_[f][0], laid_[f][1], laid_[f][2]).slope, push, first, carried);
+    carry(AffineFrameOf<T>(shadow[f]), layer(f).slope, push, first, carried);
     for (int i = 0; i < face_[f]->count; ++i)
       rim[f][i] = {choose(laidLanes_, carried[i].x, rim[f][i].x),
                    choose(laidLanes_, carried[i].y, rim[f][i].y)};

@@ -105,6 +105,7 @@ private:
   {
     T weights[2][4];   ///< of the corners of a and b there
     T apart;           ///< of the faces along the normal [m]
+    T gap;             ///< the same, which the offset less the closure is where layers lie [m]
     T closing;         ///< rate at which they close [m/s]
     Vec3Of<T> sliding; ///< velocity of b past a [m/s]
   };
@@ -336,7 +337,7 @@ private:
       if (branchFree::lane(touching, i))
       {
         Plane& plane = *planes_.plane[i];
-        plane.gap = branchFree::lane(relative.apart, i);
+        plane.gap = branchFree::lane(relative.gap, i);
         stepH_law(plane, i, branchFree::lane(area, i), branchFree::lane(energyShare, i),
                   branchFree::lane(loaded, i), branchFree::lane(tau, i),
                   branchFree::lane(increment, i), branchFree::lane(relative.closing, i), response);
@@ -425,6 +426,7 @@ private:
       r.apart += r.weights[1][i] * pair_.shadow[1].height[i];
     for (int i = 0; i < a_.count; ++i)
       r.apart -= r.weights[0][i] * pair_.shadow[0].height[i];
+    r.gap = pair_.overLayers(r.apart, at);
     const Vec3Of<T> drift =
         weighted(r.weights[1], b_.v, b_.count) - weighted(r.weights[0], a_.v, a_.count);
     r.closing = -dot(n, drift);
