@@ -179,12 +179,13 @@ void reportOverlapsOfAdded(const Solver& solver, const std::vector<int>& added,
   if (overlaps.empty())
     return;
   // A kind for each stage: none is counted only.
-  logWarning(
-      "overlaps of added blocks, " + where,
-      fmt::format("{}: bodies overlap where blocks come in:\n{}\nUp to contact.depth_max ({:g}) of "
-                  "an element there is no force now, and contact from this depth on: nothing is to "
-                  "be done where that is meant, as with a lining in rock that has moved. What lies "
-                  "deeper carries nothing until it has left: leave a gap in the mesh.",
-                  where, linesOf(overlaps, solver), solver.contact().options().depthMax));
+  logWarning("overlaps of added blocks, " + where,
+             fmt::format(
+                 "{}: bodies overlap where blocks come in:\n{}\nDeclared joints "
+                 "absorb overlaps up to a quarter of a face. Of others, up to contact.depth_max "
+                 "({:g}) of an element there is no force now, and contact from this depth on; what "
+                 "lies deeper carries nothing until it has left: declare the joint, or leave a gap "
+                 "in the mesh.",
+                 where, linesOf(overlaps, solver), solver.contact().options().depthMax));
 }
 } // namespace coplane

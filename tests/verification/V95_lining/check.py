@@ -162,6 +162,26 @@ for name, around, speed in (("turning_matched", (96, 96), 1.0), ("turning", (96,
     h = run.history
     case.check(f"{name}: contact remainder over the kinetic energy", numpy.abs(h["contact_remainder"]).max() / h["kinetic"][0], 0, 1e-3)
 
+# A lining that a stage adds where a pressure on its wall has moved the rock already: its joint is closed as it lies then.
+for name in ("matched", "other", "finer_rock"):
+    for law, card in (("", {}), ("_bonded", bond)):
+        recipe, deck = lining(*meshes[name])
+        deck["joints"]["joint"] |= card
+        recipe["side_sets"]["wall"] = {"block": "rock", "where": {"radius": b}}
+        deck["conditions"].append({"type": "pressure", "side_set": "wall", "value": 2 * pressure})
+        deck["damping"] = {"local": 0.5, "until_force_ratio": 1e-6}
+        inside = {"type": "pressure", "side_set": "inside", "value": pressure}
+        deck["stages"] = [{"name": "rock", "until": 0.1, "at_rest": True}, {"name": "lining", "add": ["lining"], "at_rest": True, "set": {f"conditions.{len(deck['conditions'])}": inside}}]
+        deck["time"] = {"end": 0.2}
+        deck["output"]["every"], deck["history"]["every"] = 0.2, 1e-3
+        run = case.attempt(f"added{law}_{name}", recipe, deck)
+        case.check_equal(f"added{law}_{name}: exit code", run.code, 0)
+        u = of_lining(run)
+        for which, value in (("least", u.min()), ("largest", u.max())):
+            case.check(f"added{law}_{name}: inside of the lining, {which} displacement [m]", value, inner, 1e-3, relative=True)
+        if name == "other" and not law:
+            case.same_bits(f"added_{name}", recipe, deck, run)
+
 # Forces along the common normal absorb the mean of a gap, and say so.
 recipe, deck = lining(2, (24, 16))
 deck["contact"]["forces"] = "common_normal"

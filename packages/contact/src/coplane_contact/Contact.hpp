@@ -88,6 +88,8 @@ public:
   /// Collective: the planes of all ranks are summed.
   /// Needs a search with seekDeclaredJoints(true) before, and one without after.
   Overpressed closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock& stressOfBlock);
+  /// The same of joints of blocks that have just come in, free of stress. Collective.
+  void closeJointsOfAdded(const ConstNodeVectors& x, const std::vector<int>& blocks);
 
   /// Ends the planes of faces of these elements and of these faces (both sorted), with their energy
   /// booked as eroded: the elements have died, the faces have been covered, on the way to x. Every
@@ -350,6 +352,9 @@ private:
   /// has pairs of. Only the owner of a ghost may have the face on which it lies. Collective.
   std::vector<Coinciding> coincidingFaces(const ConstNodeVectors& x,
                                           const std::vector<std::size_t>& slots) const;
+  /// @param addedBlocks whose joints are closed; empty: all
+  Overpressed closeJoints(const ConstNodeVectors& x, const std::vector<int>& addedBlocks,
+                          const StressOfBlock& stressOfBlock);
   /// The bodies that lie on the faces in question, by pairs of faces that lie on each other,
   /// sorted. Only the owner of a ghost may know all of those. Collective.
   std::vector<BodyOnFace> bodiesOn(std::vector<int> asked,

@@ -307,8 +307,20 @@ std::vector<Contact::BodyOnFace> Contact::bodiesOn(std::vector<int> asked,
   return found;
 }
 
+void Contact::closeJointsOfAdded(const ConstNodeVectors& x, const std::vector<int>& blocks)
+{
+  closeJoints(x, blocks, [](int, const Vec3&) { return SymTensor{}; });
+}
+
 Contact::Overpressed Contact::closeDeclaredJoints(const ConstNodeVectors& x,
                                                   const StressOfBlock& stressOfBlock)
+{
+  return closeJoints(x, {}, stressOfBlock);
+}
+
+Contact::Overpressed Contact::closeJoints(const ConstNodeVectors& x,
+                                          const std::vector<int>& addedBlocks,
+                                          const StressOfBlock& stressOfBlock)
 {
   constexpr Real rounding = 1e-9;
   Overpressed worst;
@@ -342,7 +354,8 @@ Contact::Overpressed Contact::closeDeclaredJoints(const ConstNodeVectors& x,
     const Real compression =
         closeUnder(mean(stressOfBlock(faceA.block, plane.pointOfContact),
                         stressOfBlock(faceB.block, plane.pointOfContact)),
-                   0.5 * (faceA.pressure + faceB.pressure), lawOf(plane), found.area, plane);
+                   addedBlocks.empty() ? 0.5 * (faceA.pressure + faceB.pressure) : 0, lawOf(plane),
+                   found.area, plane);
     if (!lawOf(plane).curve.crushing.acts() || !plane.countedHere ||
         !(compression > (1 + rounding) * strengthOf(plane.joint)))
       return;
@@ -355,6 +368,16 @@ Contact::Overpressed Contact::closeDeclaredJoints(const ConstNodeVectors& x,
       worst = here;
     else
       ++worst.planes;
+  };
+  const auto isAdded = [&](const Face& face)
+  { return std::count(addedBlocks.begin(), addedBlocks.end(), face.block) > 0; };
+  // Of joints that there were before it is only asked what lies on what.
+  const auto isToBeClosed = [&](std::size_t slot, const Face& a, const Face& b)
+  {
+    if (addedBlocks.empty())
+      return true;
+    const Plane* const plane = planes_.slots().plane[slot];
+    return (isAdded(a) || isAdded(b)) && (plane == nullptr || !plane->isBorn());
   };
   // Whether faces beside each other, or apart, belong to one joint hangs on what lies on them.
   std::vector<std::pair<std::size_t, DeclaredPlane>> doubtful;
@@ -372,7 +395,9 @@ Contact::Overpressed Contact::closeDeclaredJoints(const ConstNodeVectors& x,
     const bool lie = found.area > 0 && !found.beside;
     if (lie)
       onEachOther.push_back({{pair.face[0], pair.face[1]}, found.overlap.gap});
-    if (found.beside || (lie && !(std::abs(found.overlap.gap) < rounding)))
+    if (!isToBeClosed(slot, faceA, faceB))
+      continue;
+    if (found.beside || (lie && !(std::abs(found.overlap.gap) < rounding * faceA.thickness)))
       doubtful.emplace_back(slot, found);
     else if (lie)
       close(slot, found);

@@ -219,8 +219,11 @@ void Solver::findForces(Real dt)
 {
   elements_.update(state_, layout_, dt, work_);
   subcycling_.endElements(dt, layout_, state_, elements_, work_);
+  const std::vector<int> coming = coming_.blocks;
   const bool someDied = dt > 0 && erode(dt);
-  if (contact_ && (searches_.isDue() || someDied))
+  if (contact_ && !coming.empty() && declaresJoints())
+    joinAdded(coming, clock_.time + dt);
+  else if (contact_ && (searches_.isDue() || someDied))
     search(clock_.time + dt);
   else if (contact_ && model_.contact.inherit && searches_.isPassingDue())
     passOn();
@@ -329,6 +332,23 @@ void Solver::passOn()
   Kokkos::deep_copy(state_.atPassing, ownedOf(state_.x));
 }
 
+bool Solver::declaresJoints() const
+{
+  const auto& rules = model_.contactRules.table;
+  return std::any_of(rules.begin(), rules.end(),
+                     [](const ContactRule& rule) { return rule.declared; });
+}
+
+/// A search after which the declared joints of blocks that have come in are closed.
+void Solver::joinAdded(const std::vector<int>& blocks, Real time)
+{
+  contact_->seekDeclaredJoints(true);
+  search(time);
+  contact_->seekDeclaredJoints(false);
+  contact_->closeJointsOfAdded(state_.x, blocks);
+  search(time, true);
+}
+
 /// First search, and declared joints closed.
 void Solver::openContact()
 {
@@ -338,9 +358,7 @@ void Solver::openContact()
   step_.boundFirst(comm_->min(elements_.smallestStep()),
                    {comm_->min(limits.thinnest), comm_->min(limits.massOverStiffness)},
                    searches_.relativeSpeed());
-  const auto& rules = model_.contactRules.table;
-  const bool declares = std::any_of(rules.begin(), rules.end(),
-                                    [](const ContactRule& rule) { return rule.declared; });
+  const bool declares = declaresJoints();
   contact_->seekDeclaredJoints(declares);
   search(0);
   contact_->seekDeclaredJoints(false);

@@ -202,6 +202,8 @@ private:
   void bookFromOutside(Real dt);
   void takeGhostNodes(const std::vector<GlobalId>& ghostNodes);
   void openContact();
+  bool declaresJoints() const;
+  void joinAdded(const std::vector<int>& blocks, Real time);
 
   void findElementForces();
   /// Blocks, and conditions that still have the loads on their faces.
