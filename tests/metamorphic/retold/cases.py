@@ -94,8 +94,9 @@ CASES = {
     "cut_rock_2d": Retold(["mirrored", "renumbered"]),
     "explosion_3d": Retold(["mirrored", "restarted"]),
     "jointed_rock_2d": Retold([]),
-    "projectile_wall_2d": Retold([]),
-    "bar_wall_3d": Retold([], bounds={"mirrored": WALL, "turned": WALL}),
+    # Turned, one contact of bricks begins in another cycle after 0.2 ms: nodes beside it move by up to 3e-3 of the largest velocity otherwise, the projectile by 4e-6.
+    "projectile_wall_2d": Retold([], bounds={"turned": 1e-2, "moved": 1e-5}),
+    "bar_wall_3d": Retold([], bounds=dict.fromkeys(["mirrored", "turned", "renumbered", "moved"], WALL)),
 }
 
 AXIS = "bodies of revolution: the axis may not be turned, moved or cut"
