@@ -29,7 +29,7 @@ KOKKOS_FORCEINLINE_FUNCTION bool PotentialCycle<Dim, T>::carries(Plane& plane, i
   if (!carried && !(plane.declared && plane.isNew()) && !plane.history.bonded)
   {
     refuse(plane, i, closedBefore);
-    if (before == Before::SharedNoArea && isOpposedByWarp(i))
+    if (before == Before::SharedNoArea && isOpposedByWarp(plane, i))
       plane.refusal = Refusal::Deep;
   }
   if (plane.isRefused())
@@ -51,9 +51,21 @@ KOKKOS_FORCEINLINE_FUNCTION bool PotentialCycle<Dim, T>::carries(Plane& plane, i
 }
 
 template <int Dim, class T>
-KOKKOS_INLINE_FUNCTION bool PotentialCycle<Dim, T>::isOpposedByWarp(int i) const
+KOKKOS_INLINE_FUNCTION Real PotentialCycle<Dim, T>::unexplainedFromTheSide(const Plane& plane,
+                                                                           int i) const
 {
-  if (Dim == 2)
+  constexpr Real farthestInAStep = 4; // of the motion of corners: slopes, and two steps
+  if (Dim == 2 || plane.history.bonded)
+    return 0;
+  const Real explained = plane.isBorn() || plane.isInherited() ? plane.closure : 0;
+  const Real closed = branchFree::lane(deepest_, i) - permanents_[i] - explained;
+  return closed > farthestInAStep * mostSliding(a_, b_, i, dt_) ? closed : 0;
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION bool PotentialCycle<Dim, T>::isOpposedByWarp(const Plane& plane, int i) const
+{
+  if (!(unexplainedFromTheSide(plane, i) > 0))
     return false;
   const HalfStepFace a = placeOf(a_, i), b = placeOf(b_, i);
   const Real turned = 2 * (beyondNodes(a) / std::sqrt(a.area) + beyondNodes(b) / std::sqrt(b.area));
@@ -63,13 +75,13 @@ KOKKOS_INLINE_FUNCTION bool PotentialCycle<Dim, T>::isOpposedByWarp(int i) const
 template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION Real PotentialCycle<Dim, T>::closedByWarp(const Plane& plane, int i) const
 {
-  if (Dim == 2 || plane.history.bonded)
+  constexpr Real roundOff = 1e-6;
+  const Real closed = unexplainedFromTheSide(plane, i);
+  if (!(closed > 0))
     return 0;
   const HalfStepFace a = placeOf(a_, i), b = placeOf(b_, i);
   const Real beyond = (beyondNodes(a) + beyondNodes(b)) / branchFree::lane(pair_.kappa(), i);
-  const Real explained = plane.isBorn() || plane.isInherited() ? plane.closure : 0;
-  const Real closed = branchFree::lane(deepest_, i) - permanents_[i] - explained;
-  return closed < beyond ? branchFree::positivePart(closed) : beyond;
+  return closed < (1 + roundOff) * beyond ? closed : 0;
 }
 
 template <int Dim, class T>
