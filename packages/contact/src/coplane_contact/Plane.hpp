@@ -197,9 +197,10 @@ struct alignas(64) Plane
   Real dampingWork = 0;
 
   /// Of a joint that has absorbed a gap which changes along its faces: the gap at which it is just
-  /// closed at a place is `offset` less these, each carried along by one face. Nothing else lies in
-  /// this line of the cache, and few planes need it.
+  /// closed at a place is `offset` less these, each carried along by one face. In this line of the
+  /// cache lies only what few planes need.
   Real laid[2][3] = {};
+  bool acrossJoint = false; ///< between faces of a declared joint, or beside one
 
   KOKKOS_INLINE_FUNCTION Real& hysteresisDue() { return closureMemory[0]; }
   KOKKOS_INLINE_FUNCTION void bookHysteresisDue()

@@ -149,6 +149,8 @@ inline constexpr auto planeMembers = std::make_tuple(
         "absorbed_unevenly", "-", [](auto& p) -> auto& { return p.history.absorbedUnevenly; }),
     planeMember(
         "laid", "m", [](auto& p) -> auto& { return p.laid; }),
+    planeMember(
+        "across_joint", "-", [](auto& p) -> auto& { return p.acrossJoint; }),
     planeMember<Passing::Mean, Stale::WithCurve>(
         "maximum_closure", "m", [](auto& p) -> auto& { return p.history.maximumClosure; })
         .writtenAs("maximum_closure"),

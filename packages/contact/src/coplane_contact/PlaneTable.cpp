@@ -73,6 +73,7 @@ Plane PlaneTable::freshPlane(std::size_t slot) const
   plane.face[0] = pair.face[0];
   plane.face[1] = pair.face[1];
   plane.joint = std::uint16_t(rule.joint);
+  plane.acrossJoint = rule.declared;
   plane.block[0] = std::uint16_t(a.block);
   plane.block[1] = std::uint16_t(b.block);
   plane.countedHere = a.ownedHere;

@@ -55,7 +55,7 @@ KOKKOS_INLINE_FUNCTION Real PotentialCycle<Dim, T>::unexplainedFromTheSide(const
                                                                            int i) const
 {
   constexpr Real farthestInAStep = 4; // of the motion of corners: slopes, and two steps
-  if (Dim == 2 || plane.history.bonded)
+  if (Dim == 2 || plane.history.bonded || !plane.acrossJoint)
     return 0;
   const Real explained = plane.isBorn() || plane.isInherited() ? plane.closure : 0;
   const Real closed = branchFree::lane(deepest_, i) - permanents_[i] - explained;

@@ -283,8 +283,8 @@ private:
   /// Whether warped faces oppose each other by less than their normals change along them: near a
   /// right angle. What comes in from the side so does not meet the other one.
   KOKKOS_INLINE_FUNCTION bool isOpposedByWarp(const Plane& plane, int i) const;
-  /// Closure of a pair that comes in from the side which neither a neighbour nor its motion in a
-  /// step explains, in space [m].
+  /// Closure of a pair beside a declared joint that comes in from the side which neither a
+  /// neighbour nor its motion in a step explains, in space [m].
   KOKKOS_INLINE_FUNCTION Real unexplainedFromTheSide(const Plane& plane, int i) const;
   /// What the mean planes of warped faces lie beyond their nodes closes a pair that comes in from
   /// the side before its faces touch: that is no closure. @returns its closure, if that explains
