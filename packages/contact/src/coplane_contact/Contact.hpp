@@ -294,14 +294,15 @@ private:
     std::int32_t face[2];
     Real gap;
   };
-  /// That a body lies on a face, across a gap [m].
+  /// That a body lies on a face.
   struct BodyOnFace
   {
     GlobalId face;
     int body;
-    Real gap;
+    Real gap;       ///< between them [m]
+    Real thickness; ///< of its element there [m]
 
-    auto key() const { return std::tuple(face, body, gap); }
+    auto key() const { return std::tuple(face, body, gap, thickness); }
     bool operator<(const BodyOnFace& o) const { return key() < o.key(); }
     bool operator==(const BodyOnFace& o) const { return key() == o.key(); }
   };

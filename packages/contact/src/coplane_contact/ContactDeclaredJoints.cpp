@@ -194,21 +194,23 @@ bool liesOn(const Bodies& bodies, GlobalId face, int body)
   return does;
 }
 
-/// Whether a third body lies on both faces, nearer to them than they are to each other: a layer
-/// that is thin for its faces.
+/// Whether other bodies lie on both faces, so near and so thin that they lie between: layers that
+/// are thin for their faces.
 template <class Bodies>
-bool haveBodyBetween(const Bodies& bodies, const Face& a, const Face& b, Real gap)
+bool haveBodiesBetween(const Bodies& bodies, const Face& a, const Face& b, Real gap)
 {
-  bool has = false;
-  forBodiesOn(bodies, a.id,
-              [&](const auto& onA)
-              {
-                if (onA.body != a.body && onA.body != b.body)
-                  forBodiesOn(bodies, b.id,
-                              [&](const auto& onB)
-                              { has = has || (onB.body == onA.body && onA.gap + onB.gap < gap); });
-              });
-  return has;
+  constexpr Real half = 0.5; // of an element: of a layer as thick as the gap, also if crossed
+  const auto isBehindOthers = [&](const Face& face)
+  {
+    bool is = false;
+    forBodiesOn(bodies, face.id,
+                [&](const auto& on) {
+                  is = is || (on.body != a.body && on.body != b.body &&
+                              on.gap + half * on.thickness < gap);
+                });
+    return is;
+  };
+  return isBehindOthers(a) && isBehindOthers(b);
 }
 
 /// Whether two faces lie on each other corner by corner, as the two sides of a cut do.
@@ -297,7 +299,7 @@ std::vector<Contact::BodyOnFace> Contact::bodiesOn(std::vector<int> asked,
       const Face &face = faces()[pair.face[side]], &other = faces()[pair.face[1 - side]];
       if (!face.ownedHere || !std::binary_search(here.begin(), here.end(), face.id))
         continue;
-      found.push_back({face.id, other.body, std::abs(pair.gap)});
+      found.push_back({face.id, other.body, std::abs(pair.gap), other.thickness});
       if (std::binary_search(byOthers.begin(), byOthers.end(), face.id))
         told.push_back(found.back());
     }
@@ -411,7 +413,7 @@ Contact::Overpressed Contact::closeJoints(const ConstNodeVectors& x,
   {
     const Face& faceA = faces()[planes_.slots().faces(slot).face[0]];
     const Face& faceB = faces()[planes_.slots().faces(slot).face[1]];
-    if (!haveBodyBetween(bodies, faceA, faceB, found.overlap.gap) &&
+    if (!haveBodiesBetween(bodies, faceA, faceB, found.overlap.gap) &&
         (!found.beside ||
          (liesOn(bodies, faceA.id, faceB.body) && liesOn(bodies, faceB.id, faceA.body))))
       close(slot, found);
