@@ -138,8 +138,10 @@ void reportCensus(const Contact& contact)
     std::vector<std::string> names;
     for (const GlobalId id : c.firstLonelyFaces)
       names.push_back(faceName(id));
-    logInfo("    {} faces of declared joints share no area with any other, or lie too far from it: {}{}", c.lonelyFaces,
-            fmt::join(names, ", "), c.lonelyFaces > std::int64_t(names.size()) ? ", ..." : "");
+    logInfo("    {} faces of declared joints share no area with any other, or lie too far from it: "
+            "{}{}",
+            c.lonelyFaces, fmt::join(names, ", "),
+            c.lonelyFaces > std::int64_t(names.size()) ? ", ..." : "");
   }
   logInfo("  other pairs: {} apart, {} touching, {} overlapping", c.apart, c.touching,
           c.overlapping);

@@ -353,7 +353,7 @@ private:
   /// has pairs of. Only the owner of a ghost may have the face on which it lies. Collective.
   std::vector<Coinciding> coincidingFaces(const ConstNodeVectors& x,
                                           const std::vector<std::size_t>& slots) const;
-  /// @param addedBlocks whose joints are closed; empty: all
+  /// @param addedBlocks whose joints are closed; empty: all. Collective.
   Overpressed closeJoints(const ConstNodeVectors& x, const std::vector<int>& addedBlocks,
                           const StressOfBlock& stressOfBlock);
   /// The bodies that lie on the faces in question, by pairs of faces that lie on each other,
