@@ -63,7 +63,7 @@ KOKKOS_INLINE_FUNCTION Real PotentialCycle<Dim, T>::unexplainedFromTheSide(const
 }
 
 template <int Dim, class T>
-KOKKOS_INLINE_FUNCTION bool PotentialCycle<Dim, T>::isOpposedByWarp(const Plane& plane, int i) const
+KOKKOS_FUNCTION bool PotentialCycle<Dim, T>::isOpposedByWarp(const Plane& plane, int i) const
 {
   if (!(unexplainedFromTheSide(plane, i) > 0))
     return false;
@@ -73,7 +73,7 @@ KOKKOS_INLINE_FUNCTION bool PotentialCycle<Dim, T>::isOpposedByWarp(const Plane&
 }
 
 template <int Dim, class T>
-KOKKOS_INLINE_FUNCTION Real PotentialCycle<Dim, T>::closedByWarp(const Plane& plane, int i) const
+KOKKOS_FUNCTION Real PotentialCycle<Dim, T>::closedByWarp(const Plane& plane, int i) const
 {
   constexpr Real roundOff = 1e-6;
   const Real closed = unexplainedFromTheSide(plane, i);

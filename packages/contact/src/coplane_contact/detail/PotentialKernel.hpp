@@ -280,16 +280,17 @@ private:
   /// Whether a pair that comes in from the side stands higher, by a gap that a joint beside it has
   /// absorbed, than that joint does: deeper closed than it, and by more than the step.
   KOKKOS_INLINE_FUNCTION bool isHigherThanBeside(const Plane& plane, int i) const;
+  // Rare, and not inlined: in steps E and F they cost all planes some hundredths of their time.
   /// Whether warped faces oppose each other by less than their normals change along them: near a
   /// right angle. What comes in from the side so does not meet the other one.
-  KOKKOS_INLINE_FUNCTION bool isOpposedByWarp(const Plane& plane, int i) const;
+  [[gnu::noinline]] KOKKOS_FUNCTION bool isOpposedByWarp(const Plane& plane, int i) const;
   /// Closure of a pair beside a declared joint that comes in from the side which neither a
   /// neighbour nor its motion in a step explains, in space [m].
   KOKKOS_INLINE_FUNCTION Real unexplainedFromTheSide(const Plane& plane, int i) const;
   /// What the mean planes of warped faces lie beyond their nodes closes a pair that comes in from
   /// the side before its faces touch: that is no closure. @returns its closure, if that explains
   /// all of what no neighbour and no motion does; else 0 [m]
-  KOKKOS_INLINE_FUNCTION Real closedByWarp(const Plane& plane, int i) const;
+  [[gnu::noinline]] KOKKOS_FUNCTION Real closedByWarp(const Plane& plane, int i) const;
   /// What was closed before it carries has no energy, whatever its neighbours passed on: its
   /// surface lies where the faces are deepest in each other, on top of what the joint has closed
   /// for good. A bond, which carries by its mean closure, is stress-free where it is, unless its
