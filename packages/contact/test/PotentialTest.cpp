@@ -625,4 +625,20 @@ TEST(ContactPotential, matchedFacesUnderEvenClosureAreNotSqueezed)
     for (int i = 0; i < 4; ++i)
       EXPECT_NEAR(std::hypot(matched.gradient[f][i].x, matched.gradient[f][i].y), 0, 1e-11);
 }
+
+TEST(ContactPotential, anEvenClosureOfAPenaltyBearsWhatItsHardeningSays)
+{
+  const FaceNodes a = face({{1, 0, 0}, {0, 0, 0}}), b = face({{0, 0, 0}, {1, 0, 0}});
+  const Real stiffness = 3e6, depth = .12;
+  for (const Real linear : {.002, .03, .1, .3, 2.0})
+  {
+    const Real closure = linear * PenaltyHardening::closureUnder(linear / depth);
+    const Evaluation<2> pair(a, b, stiffness, closure, {0, 0}, 0, 1e-3, 1 / depth);
+    EXPECT_NEAR(pair.force, stiffness * linear * pair.area, 1e-9 * pair.force);
+    EXPECT_NEAR(pair.energy,
+                .5 * stiffness * closure * closure * PenaltyHardening::energy(closure / depth),
+                1e-9 * pair.energy);
+    EXPECT_NEAR(closure * PenaltyHardening::pressure(closure / depth), linear, 1e-12 * linear);
+  }
+}
 } // namespace coplane

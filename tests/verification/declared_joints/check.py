@@ -27,6 +27,43 @@ for name, size, divisions, split in (("two cells", [0.1, 0.06], [1, 2], "triangl
     case.check(f"{name}: largest velocity over that of waves", numpy.abs(run.results.nodal("velocity")).max() / SPEED, 0, 1e-12)
 case.same_bits("in_space", recipe, bonded, run, ranks=3, joints=joints)
 
+# --- soft joints that an initial stress has closed by as much as a face is long ------------------------------------------------
+def closed_by(law, dimension, forces="auto"):
+    """Two blocks on each other, joined by `law`, whose stress the joint bears from the start."""
+    deep = [0.5] if dimension == 3 else []
+    recipe = {"dimension": dimension, "node_sets": {"base": {"where": {"y": 0}}}, "side_sets": {"lid": {"where": {"y": 0.8}}},
+              "parts": [{"shape": "box", "block": block, "min": [0, y] + [0] * len(deep), "size": [0.8, 0.4] + deep, "divisions": [cells, 2] + [2] * len(deep)}
+                        for block, y, cells in (("lower", 0, 4), ("upper", 0.4, 4 if dimension == 2 else 3))]}  # fmt: skip
+    deck = {"materials": {"rock": ROCK}, "blocks": {block: {"material": "rock"} for block in ("lower", "upper")}, "joints": {"soft": {"friction": 0.5, **law}},
+            "contact": {"forces": forces, "pairs": [{"blocks": ["lower", "upper"], "joint": "soft", "declared": True}]},
+            "initial": [{"block": block, "stress": [0, -STRESS, 0, 0, 0, 0]} for block in ("lower", "upper")],
+            "conditions": [{"type": "fixed", "node_set": "base"}, {"type": "pressure", "side_set": "lid", "value": STRESS}],
+            "time": {"end": 5e-3}, "history": {"every": 1e-4}, "output": {"planes": False}}  # fmt: skip
+    return recipe, deck
+
+
+STRESS, FACE = 1e7, 0.2
+MODULUS = 1.2e9  # of P waves
+for dimension in (2, 3):
+    for part in (0.3, 0.8, 2.5):  # of a face
+        k = STRESS / (part * FACE)
+        for law in ({"model": "linear", "normal_stiffness": k}, {"model": "closure_curve", "initial_stiffness": k / 3, "maximum_closure": 1.5 * part * FACE, "shear_stiffness": k},
+                    {"model": "penalty", "stiffness_fraction": 2 * k * FACE / MODULUS}):  # fmt: skip
+            for forces in ("auto", "common_normal") if law["model"] == "linear" else ("auto",):
+                name = f"{law['model']} joint closed by {part:g} of a face by its stress, {dimension}D, {forces}"
+                recipe, deck = closed_by(law, dimension, forces)
+                run = case.attempt(f"closed_{law['model']}_{part}_{dimension}_{forces}", recipe, deck)
+                if not case.check_equal(f"{name}: exit code", run.code, 0):
+                    continue
+                h = run.history
+                stored = h["contact_stored"][0]
+                case.check(f"{name}: kinetic energy over what the joint stores", h["kinetic"].max() / stored, 0, 1e-20)
+                case.check(f"{name}: contact remainder over that", numpy.abs(h["contact_remainder"]).max() / stored, 0, 1e-9)
+                case.check(f"{name}: planes that are said to lie too deep", h["too_deep"].max(), 0, 0)
+                if law["model"] == "linear":
+                    case.check(f"{name}: energy of the joint [J]", stored, STRESS**2 / (2 * k) * 0.8 * (0.5 if dimension == 3 else 1), 1e-9, relative=True)
+case.same_bits("closed_penalty_2.5_3_auto", recipe, deck, run, ranks=2, threads=2)
+
 # --- contact damping on a joint that carries nothing ----------------------------------------------------------------------
 for angle in (0, 37, 90):
     along = numpy.array([math.cos(math.radians(angle)), math.sin(math.radians(angle)), 0])

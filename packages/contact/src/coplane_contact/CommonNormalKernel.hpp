@@ -137,7 +137,7 @@ KOKKOS_FORCEINLINE_FUNCTION JointResponse stepH_law(Plane& plane, const JointLaw
     plane.closure = plane.offset - plane.gap;
   else
     plane.closure -= opening;
-  plane.tooDeep = plane.closure > plane.depthLimit;
+  plane.tooDeep = plane.isTooDeep();
   const JointResponse response = law(plane.fit, plane.limitedClosure(), sliding, dt, plane.history);
   plane.hysteresisWork += plane.area * response.hysteresisWork(plane.normalTraction);
   plane.normalTraction = response.normalTraction;

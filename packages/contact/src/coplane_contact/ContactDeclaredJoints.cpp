@@ -98,16 +98,23 @@ SymTensor mean(const SymTensor& a, const SymTensor& b)
 /// compression [Pa].
 /// @param pressure that conditions put on both faces, which the plane does not carry [Pa]
 /// @param area of its overlap [m^2]
+/// @param forces a penalty hardens with the potential
 Real closeUnder(const SymTensor& stress, Real pressure, const JointLaw& law, Real area,
-                Plane& plane)
+                ContactOptions::Forces forces, Plane& plane)
 {
   const Vec3 total = traction(stress, plane.normal);
   const Vec3 t = total + pressure * plane.normal; // effective
   const Real compression = -dot(t, plane.normal);
   plane.history.bonded = law.cohesive();
-  const Real closure = compression > 0        ? law.closureUnder(plane.fit, compression)
-                       : plane.history.bonded ? compression / plane.fit.normalStiffness
-                                              : 0;
+  Real closure = compression > 0        ? law.closureUnder(plane.fit, compression)
+                 : plane.history.bonded ? compression / plane.fit.normalStiffness
+                                        : 0;
+  Real hardened = 1;
+  if (law.penalty && forces == ContactOptions::Forces::Potential && !plane.history.bonded)
+  {
+    closure *= PenaltyHardening::closureUnder(closure / plane.depthLimit);
+    hardened = PenaltyHardening::energy(closure / plane.depthLimit);
+  }
   plane.history.maximumClosure = std::max(closure, 0.0);
   plane.offset += closure;
   plane.closure = closure;
@@ -118,7 +125,8 @@ Real closeUnder(const SymTensor& stress, Real pressure, const JointLaw& law, Rea
   }
   // The energy that the initial stress has put into the joint.
   plane.hysteresisWork = plane.area * law.hysteresis(plane.fit, plane.history.maximumClosure);
-  plane.stored = plane.area * law.stored(plane.fit, plane.limitedClosure(), plane.history);
+  plane.stored = plane.area * law.stored(plane.fit, plane.closure, plane.history) +
+                 (hardened - 1) * 0.5 * plane.area * plane.fit.normalStiffness * closure * closure;
   plane.work = plane.stored + plane.hysteresisWork;
   return compression;
 }
@@ -357,7 +365,7 @@ Contact::Overpressed Contact::closeJoints(const ConstNodeVectors& x,
         closeUnder(mean(stressOfBlock(faceA.block, plane.pointOfContact),
                         stressOfBlock(faceB.block, plane.pointOfContact)),
                    addedBlocks.empty() ? 0.5 * (faceA.pressure + faceB.pressure) : 0, lawOf(plane),
-                   found.area, plane);
+                   found.area, options_.forces, plane);
     if (!lawOf(plane).curve.crushing.acts() || !plane.countedHere ||
         !(compression > (1 + rounding) * strengthOf(plane.joint)))
       return;

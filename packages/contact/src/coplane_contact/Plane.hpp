@@ -303,10 +303,19 @@ struct alignas(64) Plane
     return isShallow() ? depthLimit : deepestStart * depthLimit;
   }
 
-  /// Closure that the law sees: beyond the depth limit the force is frozen [m].
+  /// What of the closure faces that lay on each other had already: a joint that was closed by an
+  /// initial stress, or lifted, is not deep [m].
+  KOKKOS_INLINE_FUNCTION Real closureOnSurface() const { return offset > 0 ? offset : 0; }
+  /// Faces lie deeper in each other than the limit.
+  KOKKOS_INLINE_FUNCTION bool isTooDeep() const
+  {
+    return closure - closureOnSurface() > depthLimit;
+  }
+  /// Closure that the law of forces along the common normal sees, which grow no further in depths
+  /// beyond the limit [m].
   KOKKOS_INLINE_FUNCTION Real limitedClosure() const
   {
-    return closure < depthLimit ? closure : depthLimit;
+    return isTooDeep() ? closureOnSurface() + depthLimit : closure;
   }
   /// Of all nodes of a face [N].
   KOKKOS_INLINE_FUNCTION Vec3 forceOn(int side) const

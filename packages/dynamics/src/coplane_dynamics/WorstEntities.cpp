@@ -43,7 +43,7 @@ std::string pairName(const Entry& entry)
 /// Depth over the depth limit.
 Real depthOf(const Plane& plane)
 {
-  return plane.area > 0 ? plane.closure / plane.depthLimit : 0;
+  return plane.area > 0 ? (plane.closure - plane.closureOnSurface()) / plane.depthLimit : 0;
 }
 } // namespace
 

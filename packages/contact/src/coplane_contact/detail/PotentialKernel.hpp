@@ -474,7 +474,7 @@ private:
     const bool wasBonded = plane.history.bonded;
     plane.normal = branchFree::lane(pair_.plane.normal, i);
     plane.closure = permanents_[i] + branchFree::lane(m.volume / m.area, i);
-    plane.tooDeep = plane.closure > plane.depthLimit;
+    plane.tooDeep = plane.isTooDeep();
     if (!(area > 0) && plane.area > 0)
       plane.frictionWork += plane.shearEnergy();
     plane.history.shearTraction = tau;
