@@ -6,7 +6,9 @@
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Timers.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace coplane
 {
@@ -67,6 +69,35 @@ void reportAddedMass(const Solver& solver)
 }
 } // namespace
 
+namespace
+{
+/// Places are numbers: those far from the origin have few digits left for how the model moves.
+/// Collective.
+void reportPlace(const Solver& solver)
+{
+  constexpr Real farFromOrigin = 1e4; // sizes of the model
+  std::vector<Real> most(7, 0);       // largest coordinate; largest and minus least of each axis
+  std::fill(most.begin() + 1, most.end(), -infinity);
+  for (const Vec3& x : solver.mesh().coordinates)
+    for (int c = 0; c < 3; ++c)
+    {
+      most[0] = std::max(most[0], std::abs(x[c]));
+      most[1 + 2 * c] = std::max(most[1 + 2 * c], x[c]);
+      most[2 + 2 * c] = std::max(most[2 + 2 * c], -x[c]);
+    }
+  solver.comm().max(most);
+  const Real size = std::max({most[1] + most[2], most[3] + most[4], most[5] + most[6]});
+  if (most[0] > farFromOrigin * size)
+    logWarning("a model far from the origin",
+               fmt::format("the model is {:.3g} m large and lies {:.3g} m from the origin, where "
+                           "places are known to {:.1g} m. Motions are summed up exactly, but "
+                           "closures of contacts are no better known than that. Move the mesh: "
+                           "name it in a recipe with offset (coplane_mesh make; "
+                           "docs/user/meshes.md).",
+                           size, most[0], most[0] * std::numeric_limits<Real>::epsilon()));
+}
+} // namespace
+
 void reportModel(const Solver& solver, const MeshSlice& mesh, const Deck& deck)
 {
   const Comm& comm = solver.comm();
@@ -82,6 +113,7 @@ void reportModel(const Solver& solver, const MeshSlice& mesh, const Deck& deck)
     logInfo("  block '{}' ({}): {} elements, mass {:.9g} kg", mesh.mine.blocks[b].name,
             mesh.mine.blocks[b].id, mesh.elementsOf(int(b)), totals[b]);
 
+  reportPlace(solver);
   reportStep(solver, deck);
   reportAddedMass(solver);
   if (!solver.hasContact())

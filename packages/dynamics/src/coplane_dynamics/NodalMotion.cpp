@@ -1,3 +1,4 @@
+#include <coplane_core/CompensatedSum.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/NodalMotion.hpp>
 
@@ -52,11 +53,13 @@ Vec3 NodalMotion::reaction(int node) const
 
 void NodalMotion::drift(Real dt, const NodalState& state)
 {
-  const auto x = state.x;
+  const auto x = state.x, rest = state.xRest;
   const ConstNodeVectors v = state.v;
   parallelFor(
-      "coplane::dynamics::drift", state.owned(),
-      KOKKOS_LAMBDA(const int n) { set(x, n, at(x, n) + dt * at(v, n)); });
+      "coplane::dynamics::drift", state.owned(), KOKKOS_LAMBDA(const int n) {
+        for (int c = 0; c < 3; ++c)
+          addCompensated(x(n, c), rest(n, c), dt * v(n, c));
+      });
   bodies_.drift(dt);
   freeFields_.advance(dt);
 }

@@ -3,13 +3,13 @@
 namespace coplane
 {
 NodalState::NodalState(const RankMesh& mesh)
-    : x("x", mesh.nodes()), v("v", mesh.nodes()), mass("mass", mesh.ownedNodes),
-      reference("reference", mesh.nodes()), vPrevious("vPrevious", mesh.ownedNodes),
-      force("force", mesh.ownedNodes), contactForce("contactForce", mesh.ownedNodes),
-      external("external", mesh.ownedNodes), damping("damping", mesh.ownedNodes),
-      localDamping("localDamping", mesh.ownedNodes), impulse("impulse", mesh.ownedNodes),
-      angularImpulse("angularImpulse", mesh.ownedNodes), atSearch("atSearch", mesh.ownedNodes),
-      velocityAtSearch("velocityAtSearch", mesh.ownedNodes),
+    : x("x", mesh.nodes()), xRest("xRest", mesh.ownedNodes), v("v", mesh.nodes()),
+      mass("mass", mesh.ownedNodes), reference("reference", mesh.nodes()),
+      vPrevious("vPrevious", mesh.ownedNodes), force("force", mesh.ownedNodes),
+      contactForce("contactForce", mesh.ownedNodes), external("external", mesh.ownedNodes),
+      damping("damping", mesh.ownedNodes), localDamping("localDamping", mesh.ownedNodes),
+      impulse("impulse", mesh.ownedNodes), angularImpulse("angularImpulse", mesh.ownedNodes),
+      atSearch("atSearch", mesh.ownedNodes), velocityAtSearch("velocityAtSearch", mesh.ownedNodes),
       atPassing("atPassing", mesh.ownedNodes), externalWork("externalWork", mesh.ownedNodes),
       dampingWork("dampingWork", mesh.ownedNodes),
       localDampingWork("localDampingWork", mesh.ownedNodes),

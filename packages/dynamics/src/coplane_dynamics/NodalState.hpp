@@ -12,6 +12,7 @@ namespace coplane
 struct NodalState
 {
   NodeVectors x;                ///< position at n [m]
+  NodeVectors xRest;            ///< what the sum of all motions has more than x can hold [m]
   NodeVectors v;                ///< velocity at n + 1/2: the kick closes a cycle [m/s]
   Array<Real> mass;             ///< lumped, of inertia [kg]
   NodeVectors reference;        ///< from which displacements count [m]

@@ -1,3 +1,4 @@
+#include <coplane_core/CompensatedSum.hpp>
 #include <coplane_dynamics/RigidBodies.hpp>
 #include <coplane_dynamics/detail/RigidInertia.hpp>
 #include <coplane_mesh/IntegrateSolid.hpp>
@@ -289,7 +290,9 @@ void RigidBodies::kick(const KickTimes& times, Real massDamping, Real localDampi
     body.impulse += dtKick * outer;
     body.angularImpulse += dtKick * (cross(body.center, outer) + body.reaction.torque +
                                      body.damping.torque + body.localDamping.torque);
-    body.nextCenter = body.center + dt * body.velocity;
+    body.nextCenter = body.center;
+    body.nextCenterRest = body.centerRest;
+    addCompensated(body.nextCenter, body.nextCenterRest, dt * body.velocity);
     body.nextTurn = step.after(body.turn);
     moveNodes(body, dt, state);
   }
@@ -300,8 +303,11 @@ void RigidBodies::moveNodes(Body& body, Real dt, const NodalState& state) const
   for (std::size_t i = 0; i < body.nodes.size(); ++i)
   {
     const int n = body.nodes[i];
-    const Vec3 next = body.nextCenter + body.nextTurn(body.arms[i]);
-    set(state.v, n, (1 / dt) * (next - at(state.x, n)));
+    // Differences of places first, which are exact: what they are known to far from the origin,
+    // over a step, would be much.
+    const Vec3 way = ((body.nextCenter - at(state.x, n)) + body.nextTurn(body.arms[i])) +
+                     (body.nextCenterRest - at(state.xRest, n));
+    set(state.v, n, (1 / dt) * way);
   }
 }
 
@@ -322,6 +328,7 @@ void RigidBodies::drift(Real dt)
   {
     bookWork(body, dt, body.velocity, body.spin);
     body.center = body.nextCenter;
+    body.centerRest = body.nextCenterRest;
     body.turn = body.nextTurn;
   }
 }

@@ -191,6 +191,7 @@ private:
 
     Vec3 start{}; ///< the centre at first
     Vec3 center{}, nextCenter{};
+    Vec3 centerRest{}, nextCenterRest{}; ///< what the sums of motions have more [m]
     Turn turn, nextTurn;
     Vec3 velocity{}, previousVelocity{};
     Vec3 angularMomentum{}, previousAngularMomentum{};

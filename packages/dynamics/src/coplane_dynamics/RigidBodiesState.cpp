@@ -17,9 +17,10 @@ void RigidBodies::forEachNumber(Body& body, F&& f)
     f(turn->w);
     vector(turn->v);
   }
-  for (Vec3* v : {&body.center, &body.nextCenter, &body.velocity, &body.previousVelocity,
-                  &body.angularMomentum, &body.previousAngularMomentum, &body.spin,
-                  &body.previousSpin, &body.givenSpin, &body.impulse, &body.angularImpulse})
+  for (Vec3* v :
+       {&body.center, &body.nextCenter, &body.centerRest, &body.nextCenterRest, &body.velocity,
+        &body.previousVelocity, &body.angularMomentum, &body.previousAngularMomentum, &body.spin,
+        &body.previousSpin, &body.givenSpin, &body.impulse, &body.angularImpulse})
     vector(*v);
   for (Wrench* wrench : {&body.given, &body.reaction, &body.damping, &body.localDamping})
   {

@@ -29,6 +29,7 @@ NodeColumns nodeColumns(const NodalState& state, bool subcycles)
     columns.vectors.push_back(values);
   };
   vector("position", state.x);
+  vector("position_rest", state.xRest);
   vector("velocity", state.v);
   vector("previous_velocity", state.vPrevious);
   vector("force", state.force);

@@ -65,15 +65,19 @@ void Subcycling::begin(const Cycle& cycle, const Loads& applyLoads, const Parts&
     last_ = NodeVectors("coplane::dynamics::lastVelocity", state.v.extent(0));
   Kokkos::deep_copy(last_, state.v);
   reacting_ = moved_ = nodes_;
-  std::vector<Vec3> start;
+  std::vector<Vec3> start, way(nodes_.size());
   for (const int n : nodes_)
     start.push_back(at(state.x, n));
   for (Group& group : groups_)
     elements.block(group.block).give(group.elements, group.part);
   const auto drift = [&]
   {
-    for (const int n : nodes_)
-      set(state.x, n, at(state.x, n) + step * at(last_, n));
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+    {
+      const int n = nodes_[i];
+      way[i] += step * at(last_, n);
+      set(state.x, n, start[i] + (at(state.xRest, n) + way[i]));
+    }
   };
   for (int substep = 1; substep < count_; ++substep)
   {
@@ -96,7 +100,7 @@ void Subcycling::begin(const Cycle& cycle, const Loads& applyLoads, const Parts&
   for (std::size_t i = 0; i < nodes_.size(); ++i)
   {
     const int n = nodes_[i];
-    set(state.v, n, (1 / dt) * (at(state.x, n) - start[i]));
+    set(state.v, n, (1 / dt) * way[i]);
     set(state.x, n, start[i]);
   }
 }
