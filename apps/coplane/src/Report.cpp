@@ -5,10 +5,9 @@
 
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Timers.hpp>
+#include <coplane_dynamics/Extent.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace coplane
 {
@@ -76,25 +75,15 @@ namespace
 void reportPlace(const Solver& solver)
 {
   constexpr Real farFromOrigin = 1e4; // sizes of the model
-  std::vector<Real> most(7, 0);       // largest coordinate; largest and minus least of each axis
-  std::fill(most.begin() + 1, most.end(), -infinity);
-  for (const Vec3& x : solver.mesh().coordinates)
-    for (int c = 0; c < 3; ++c)
-    {
-      most[0] = std::max(most[0], std::abs(x[c]));
-      most[1 + 2 * c] = std::max(most[1 + 2 * c], x[c]);
-      most[2 + 2 * c] = std::max(most[2 + 2 * c], -x[c]);
-    }
-  solver.comm().max(most);
-  const Real size = std::max({most[1] + most[2], most[3] + most[4], most[5] + most[6]});
-  if (most[0] > farFromOrigin * size)
+  const Extent extent = extentOf(solver.mesh(), solver.comm());
+  if (extent.farthest > farFromOrigin * extent.size)
     logWarning("a model far from the origin",
                fmt::format("the model is {:.3g} m large and lies {:.3g} m from the origin, where "
                            "places are known to {:.1g} m. Motions are summed up exactly, but "
                            "closures of contacts are no better known than that. Move the mesh: "
                            "name it in a recipe with offset (coplane_mesh make; "
                            "docs/user/meshes.md).",
-                           size, most[0], most[0] * std::numeric_limits<Real>::epsilon()));
+                           extent.size, extent.farthest, extent.digits()));
 }
 } // namespace
 

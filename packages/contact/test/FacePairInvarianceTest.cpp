@@ -116,6 +116,32 @@ struct FacePair_Invariance : WithForces
 };
 INSTANTIATE_TEST_SUITE_P(, FacePair_Invariance, WithForces::both(), WithForces::name);
 
+/// Faces that lie on each other but for round-off count for the step, by the same fraction of their
+/// size in any unit.
+TEST_P(FacePair_Invariance, whatLiesOnAFaceButForRoundOffCountsForTheStepInAnyUnit)
+{
+  for (const Real unit : {1.0, 1024.0, 1 / 1024.0})
+    for (const bool inSpace : {false, true})
+      for (const Real gap : {.5e-8, 1.5e-8})
+      {
+        FaceNodes a = face({{unit, 0, 0}, {0, 0, 0}}),
+                  b = face({{0, gap * unit, 0}, {unit, gap * unit, 0}});
+        PairPlane plane = touchingPlane(1);
+        if (inSpace)
+        {
+          a = face({{0, 0, 0}, {unit, 0, 0}, {unit, unit, 0}, {0, unit, 0}});
+          b = face({{0, 0, gap * unit},
+                    {0, unit, gap * unit},
+                    {unit, unit, gap * unit},
+                    {unit, 0, gap * unit}});
+          updatePlane<3>(plane, a, b, usual, dt);
+        }
+        else
+          updatePlane<2>(plane, a, b, usual, dt);
+        EXPECT_EQ(plane.nodeStiffness > 0, gap < 1e-8) << unit << ' ' << inSpace << ' ' << gap;
+      }
+}
+
 /// What bounds the step may not hang on which of two faces comes first.
 TEST(ApproachSpeed, isTheSameWithTheFacesInTheOtherOrder)
 {

@@ -429,7 +429,9 @@ updatePlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const Half
   }
   // The overlap counts for the stable step as soon as the faces could touch within the look-ahead:
   // the step has to be short enough before it takes them into each other.
-  const auto near = patch.leastGap <= ahead + roundOffOfGap * squareRoot(patch.overlap);
+  const T size =
+      options.axisymmetric ? squareRoot(patch.overlap) : lengthOfArea<Dim>(patch.overlap);
+  const auto near = patch.leastGap <= ahead + roundOffOfGap * size;
   const T share = areaOfNode(patch, a.count, b.count);
   for (int i = 0; i < planes.count; ++i)
   {

@@ -122,6 +122,16 @@ KOKKOS_INLINE_FUNCTION bool wasFoundLate(const Plane& plane, bool inContact)
   return plane.isNew() && !plane.declared && !plane.isBorn() && inContact;
 }
 
+/// Length of an area: in two dimensions it is one, times a metre [m].
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION T lengthOfArea(const T& area)
+{
+  if constexpr (Dim == 2)
+    return area;
+  else
+    return branchFree::squareRoot(area);
+}
+
 /// Gershgorin's circles bound the stiffness at a node by the sum along its row, which is at most
 /// twice its own part, as the weights of either face sum to 1; a millionth more than round-off.
 constexpr Real rowSum = 2.000002;

@@ -3,6 +3,7 @@
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/BalanceWatch.hpp>
+#include <coplane_dynamics/Extent.hpp>
 #include <coplane_dynamics/WorstEntities.hpp>
 #include <coplane_mesh/FaceName.hpp>
 
@@ -39,18 +40,14 @@ std::string now(const Clock& clock)
 
 void BalanceWatch::open(const EnergyBalance& initial, const Parts& parts)
 {
-  constexpr Real roundOff = 1e-12; // thousands of units in the last place of a coordinate
   const NodalState& state = parts.state;
   std::vector<ExactSum> mass(1);
-  std::vector<Real> farthest{0};
   for (int n = 0; n < parts.layout.owned(); ++n)
-  {
     mass[0].add(state.mass(n));
-    for (int c = 0; c < 3; ++c)
-      farthest[0] = std::max(farthest[0], std::abs(state.x(n, c)));
-  }
-  parts.comm.max(farthest);
-  const Real speed = roundOff * farthest[0] / parts.clock.nextStep;
+  const Extent extent = extentOf(parts.mesh(), parts.comm);
+  // Thousands of units in the last place of what moves, and some of where it does.
+  const Real length = 1e-12 * extent.size + 4 * extent.digits();
+  const Real speed = length / parts.clock.nextStep;
   roundOff_ = ExactSum::overRanks(mass, parts.comm)[0] * speed * speed;
   inPlay_ = inPlayOf(initial);
   if (parts.contact)
