@@ -81,7 +81,7 @@ TEST_P(RevolvedElement, radialAndAxialStressLeaveInteriorNodesInBalance)
   const TestMesh mesh = meshOf(GetParam(), 4, 0.2);
   ElementBlock block = blockOf(mesh);
   block.setInitialStress({-3e6, 5e6, -3e6, 0, 0, 0});
-  block.update(mesh.x, NodeVectors("v", mesh.nodes()), 0);
+  advance(block, mesh.x, NodeVectors("v", mesh.nodes()), 0);
   const NodeVectors f = nodalForces(block, mesh.nodes());
   for (int node = 0; node < mesh.nodes(); ++node)
     if (mesh.interior[node])
@@ -96,7 +96,7 @@ TEST_P(RevolvedElement, hoopStressPullsTowardsTheAxis)
   const TestMesh mesh = meshOf(GetParam(), 1, 0);
   ElementBlock block = blockOf(mesh);
   block.setInitialStress({0, 0, 1e6, 0, 0, 0});
-  block.update(mesh.x, NodeVectors("v", mesh.nodes()), 0);
+  advance(block, mesh.x, NodeVectors("v", mesh.nodes()), 0);
   const NodeVectors f = nodalForces(block, mesh.nodes());
   Vec3 sum{};
   for (int node = 0; node < mesh.nodes(); ++node)
@@ -118,7 +118,7 @@ TEST_P(RevolvedQuadrilateral, accelerationAlongTheAxisIsUniformUnderAStressThatG
       middle += mesh.x(block.connectivity()(e, c), 1) / mesh.corners();
     block.setInitialStress(e, {0, 1e6 * std::floor(4 * middle), 0, 0, 0, 0});
   }
-  block.update(mesh.x, NodeVectors("v", mesh.nodes()), 0);
+  advance(block, mesh.x, NodeVectors("v", mesh.nodes()), 0);
   const NodeVectors f = nodalForces(block, mesh.nodes());
   std::vector<Real> mass(mesh.nodes(), 0.0);
   for (int e = 0; e < block.count(); ++e)

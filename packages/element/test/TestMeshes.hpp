@@ -80,6 +80,23 @@ inline TestMesh single(ElementType type, Real distortion, unsigned seed = 7)
   return mesh;
 }
 
+/// Adds the forces of mean tensions, with nodal pressure, of a block alone.
+inline void addOwnTensions(ElementBlock& block, const NodeVectors& x)
+{
+  if (block.options().form != ElementForm::NodalPressure)
+    return;
+  Array<Real> tension("tension", x.extent(0)), volume("volume", x.extent(0));
+  for (int e = 0; e < block.count(); ++e)
+    for (int c = 0; c < int(block.connectivity().extent(1)); ++c)
+    {
+      tension(block.connectivity()(e, c)) += block.meanTension()(0, e);
+      volume(block.connectivity()(e, c)) += block.volume(e);
+    }
+  for (int n = 0; n < int(x.extent(0)); ++n)
+    tension(n) = volume(n) > 0 ? tension(n) / volume(n) : 0;
+  block.addNodalTension(x, tension);
+}
+
 /// A step of a block alone: with nodal pressure, dilatations come from its own elements.
 inline void advance(ElementBlock& block, const NodeVectors& x, const NodeVectors& v, Real dt)
 {
@@ -99,6 +116,7 @@ inline void advance(ElementBlock& block, const NodeVectors& x, const NodeVectors
       dilatation(n) = volume(n) > 0 ? dilatation(n) / volume(n) : 0;
   }
   block.update(x, v, dt, dilatation);
+  addOwnTensions(block, x);
 }
 
 struct Formulation

@@ -83,6 +83,39 @@ void ElementForces::update(const NodalState& state, const NodeLayout& layout, Re
     const WorkWatch watch(work.elements[b]);
     blocks_[b].update(state.x, state.v, dt, dilatation);
   }
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    if (!isRigid(b) && blocks_[b].options().form == ElementForm::NodalPressure)
+      addNodalTension(b, state, layout, work);
+}
+
+/// The mean stress of an element acts through the volumes that its nodes give to all elements
+/// around them. Collective.
+void ElementForces::addNodalTension(std::size_t b, const NodalState& state,
+                                    const NodeLayout& layout, WorkTimes& work)
+{
+  ElementBlock& block = blocks_[b];
+  if (int(ofNodes_.extent(0)) != layout.size())
+    ofNodes_ = Array<Real>("coplane::dynamics::ofNodes", layout.size());
+  const auto gather = gathers_[b].view();
+  const auto tensions = block.meanTension();
+  const auto volumes = block.volume();
+  const auto tension = ofNodes_;
+  const ElementBlock* const elements = &block;
+  const int corners = topology(block.type()).nodes;
+  parallelFor(
+      "coplane::dynamics::nodalTension", layout.owned(), KOKKOS_LAMBDA(const int n) {
+        Real sum = 0, volume = 0;
+        for (const int entry : gather[n])
+          if (elements->isAlive(entry / corners))
+          {
+            sum += tensions(0, entry / corners);
+            volume += volumes(entry / corners);
+          }
+        tension(n) = volume > 0 ? sum / volume : 0;
+      });
+  layout.refresh(ofNodes_);
+  const WorkWatch watch(work.elements[b]);
+  block.addNodalTension(state.x, ofNodes_);
 }
 
 /// Dilatation of the step at every node from the elements of one block around it; empty where the
@@ -97,11 +130,11 @@ ConstArray<Real> ElementForces::nodalDilatation(std::size_t b, const NodalState&
     const WorkWatch watch(work.elements[b]);
     block.findVolumeChanges(state.x, state.v, dt);
   }
-  if (int(dilatation_.extent(0)) != layout.size())
-    dilatation_ = Array<Real>("coplane::dynamics::nodalDilatation", layout.size());
+  if (int(ofNodes_.extent(0)) != layout.size())
+    ofNodes_ = Array<Real>("coplane::dynamics::ofNodes", layout.size());
   const auto gather = gathers_[b].view();
   const auto changes = block.volumeChanges();
-  const auto dilatation = dilatation_;
+  const auto dilatation = ofNodes_;
   const ElementBlock* const elements = &block;
   const int corners = topology(block.type()).nodes;
   parallelFor(
@@ -115,8 +148,8 @@ ConstArray<Real> ElementForces::nodalDilatation(std::size_t b, const NodalState&
           }
         dilatation(n) = volume > 0 ? change / volume : 0;
       });
-  layout.refresh(dilatation_);
-  return dilatation_;
+  layout.refresh(ofNodes_);
+  return ofNodes_;
 }
 
 namespace

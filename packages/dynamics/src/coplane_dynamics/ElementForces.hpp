@@ -80,12 +80,14 @@ private:
   /// order on every rank.
   using Gather = Lists<int>;
   static Gather gatherOf(const RankMesh::Block& part, int ownedNodes);
+  void addNodalTension(std::size_t block, const NodalState& state, const NodeLayout& layout,
+                       WorkTimes& work);
   ConstArray<Real> nodalDilatation(std::size_t block, const NodalState& state,
                                    const NodeLayout& layout, Real dt, WorkTimes& work);
 
   std::vector<ElementBlock> blocks_; ///< in the order of the mesh file
   std::vector<Gather> gathers_;
   std::vector<char> rigid_;
-  Array<Real> dilatation_; ///< of the step, per node of the layout
+  Array<Real> ofNodes_; ///< dilatations of the step, then mean tensions, of a block; by node
 };
 } // namespace coplane

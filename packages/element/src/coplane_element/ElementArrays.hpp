@@ -42,6 +42,7 @@ struct ElementArrays
   Array<Real> stableStep;     ///< [s]
   Array<Real> volume;         ///< [m^3]
   ElementTable volumeChanges; ///< see ElementBlock::findVolumeChanges() [m^3]
+  ElementTable meanTension;   ///< see ElementBlock::addNodalTension() [N m]
 
   /// Brings what a kernel reads and writes of a batch into the cache. These are more stretches of
   /// memory than processors follow by themselves.
@@ -65,10 +66,10 @@ struct ElementArrays
   static void forEachOfBoth(const ElementArrays& a, const ElementArrays& b, F&& f)
   {
     using A = ElementArrays;
-    for (const auto table :
-         {&A::cornerMass, &A::pointMass, &A::stress, &A::history, &A::tangent, &A::hourglassForce,
-          &A::hourglassViscousForce, &A::compression, &A::energies, &A::deformation,
-          &A::volumeRatio, &A::pointStress, &A::pointHistory, &A::pointEnergy, &A::volumeChanges})
+    for (const auto table : {&A::cornerMass, &A::pointMass, &A::stress, &A::history, &A::tangent,
+                             &A::hourglassForce, &A::hourglassViscousForce, &A::compression,
+                             &A::energies, &A::deformation, &A::volumeRatio, &A::pointStress,
+                             &A::pointHistory, &A::pointEnergy, &A::volumeChanges, &A::meanTension})
       f(a.*table, b.*table);
     for (const auto numbers :
          {&A::mass, &A::referenceVolume, &A::referenceLength, &A::stableStep, &A::volume})

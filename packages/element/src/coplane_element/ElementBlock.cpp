@@ -132,6 +132,48 @@ struct VolumeChanges
   }
 };
 
+/// Adds the forces of mean tensions, the mean of those at the corners.
+template <ElementType type, Geometry geometry>
+struct NodalTension
+{
+  using Shape = ElementShape<type, geometry>;
+  using M = Modes<type>;
+  using Field = typename Shape::Field;
+  ElementKernelData data;
+
+  [[gnu::noinline]] void operator()(const int batch) const
+  {
+    const int first = batch * laneCount;
+    Field x, v;
+    Shape::gather(data, first, x, v);
+    const typename Shape::Gradient g = Shape::gradientAt(x);
+    const int* const node = &data.connectivity(first, 0);
+    Lanes sum(0.0);
+    for (int c = 0; c < M::nodes; ++c)
+      sum += Lanes([&](auto lane) { return data.nodalTension(node[int(lane) * M::nodes + c]); });
+    const Lanes tension = Lanes(1.0 / M::nodes) * sum;
+    Real force[M::dimension][M::nodes][laneCount];
+    for (int i = 0; i < M::dimension; ++i)
+    {
+      Lanes modes[M::count], mean(0.0);
+      for (int k = 0; k < M::count; ++k)
+        modes[k] = k < Shape::gradients ? Lanes(0.0) - tension * g.b[i][k] : Lanes(0.0);
+      if constexpr (Shape::revolved)
+        if (i == 0)
+        {
+          for (int k = 0; k < Shape::gradients; ++k)
+            modes[k] -= tension * g.hoop[k];
+          mean = Lanes(0.0) - tension * g.hoop[Shape::gradients];
+        }
+      Lanes corners[M::nodes];
+      M::toCorners(modes, corners);
+      for (int c = 0; c < M::nodes; ++c)
+        store(corners[c] + mean, force[i][c]);
+    }
+    addForces<M>(data, first, force);
+  }
+};
+
 /// Calls f with the type as a constant.
 template <class F>
 auto withType(ElementType type, F&& f)
@@ -191,6 +233,7 @@ ElementArrays arraysOf(ElementType type, const ElementOptions& options,
   const bool nodal = options.form == ElementForm::NodalPressure;
   arrays.volumeRatio = Values("volumeRatio", nodal ? 1 : 0, columns);
   arrays.volumeChanges = Values("volumeChanges", nodal ? 2 : 0, columns);
+  arrays.meanTension = Values("meanTension", nodal ? 1 : 0, columns);
   return arrays;
 }
 } // namespace
@@ -319,6 +362,24 @@ void ElementBlock::findVolumeChanges(const ConstNodeVectors& x, const ConstNodeV
     run(VolumeChanges<ElementType::Tri3, Geometry::Axisymmetric>{data});
   else
     run(VolumeChanges<ElementType::Tri3, Geometry::PlaneStrain>{data});
+}
+
+void ElementBlock::addNodalTension(const ConstNodeVectors& x, const ConstArray<Real>& nodalTension)
+{
+  if (count_ == 0)
+    return;
+  ElementKernelData data = kernelData(x, x, 0);
+  data.nodalTension = nodalTension;
+  const auto run = [&](const auto& tension)
+  { parallelFor("coplane::element::nodalTension", data.batches, tension); };
+  if (type_ == ElementType::Tet4)
+    run(NodalTension<ElementType::Tet4, Geometry::PlaneStrain>{data});
+  else if (options_.geometry == Geometry::Axisymmetric)
+    run(NodalTension<ElementType::Tri3, Geometry::Axisymmetric>{data});
+  else
+    run(NodalTension<ElementType::Tri3, Geometry::PlaneStrain>{data});
+  for (const Eroded& eroded : eroded_)
+    restore(eroded);
 }
 
 ElementKernelData ElementBlock::kernelData(const ConstNodeVectors& x, const ConstNodeVectors& v,

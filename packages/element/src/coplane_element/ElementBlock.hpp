@@ -60,6 +60,13 @@ public:
   void update(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt,
               const ConstArray<Real>& nodalDilatation = {});
 
+  /// For ElementForm::NodalPressure, after update(): adds the forces of mean tensions, which are
+  /// those of nodes: sums around a node of meanTension() over those of volume().
+  /// @param nodalTension per local node [Pa]
+  void addNodalTension(const ConstNodeVectors& x, const ConstArray<Real>& nodalTension);
+  /// Mean stress and viscous pressure times the volume that the nodes give an element, a row [N m].
+  ConstValues meanTension() const { return arrays_.meanTension; }
+
   int count() const { return count_; }
   ElementType type() const { return type_; }
   const Material& material() const { return law_; }

@@ -78,6 +78,20 @@ KOKKOS_FORCEINLINE_FUNCTION void storeForces(const ElementKernelData& data, int 
   }
 }
 
+/// The same, added to what is there.
+template <class M>
+KOKKOS_FORCEINLINE_FUNCTION void addForces(const ElementKernelData& data, int first,
+                                           const Real (&force)[M::dimension][M::nodes][laneCount])
+{
+  for (int lane = 0; lane < laneCount; ++lane)
+  {
+    Real* const out = &data.cornerForce(first + lane, 0, 0);
+    for (int c = 0; c < M::nodes; ++c)
+      for (int i = 0; i < M::dimension; ++i)
+        out[3 * c + i] += force[i][c][lane];
+  }
+}
+
 /// The stable step [s], or 0 for elements that have turned inside out or whose forces are not
 /// finite.
 /// @param sum of the forces

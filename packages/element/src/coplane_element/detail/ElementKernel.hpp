@@ -47,12 +47,14 @@ struct ElementKernel
     if (hasNodalPressure())
       drift = driftOf(load(&data.volume(first)), first);
     Motion motion{};
+    Lanes ownVolumeChange(0.0);
     MaterialPoint<Lanes> point;
     if (data.dt > 0)
     {
       motion.find(x, v, data.dt, point);
+      ownVolumeChange = motion.volumeChange;
       if (hasNodalPressure())
-        takeNodalDilatation(first, point);
+        takeNodalDilatation(first, motion, point);
       const SymTensorOf<Lanes>& de = point.strainIncrement;
       storeCompressionRate(data, first, de.xx + de.yy + de.zz);
     }
@@ -64,14 +66,17 @@ struct ElementKernel
       advance(first, v, motion, gradient.volume, length, point, stress, hourglass);
     }
     Lanes ownPressure = viscous.now;
+    Lanes tension(0.0);
     if (hasNodalPressure())
     {
-      drift = advanceDrift(first, drift, gradient.volume, motion.volumeChange);
-      ownPressure += drift.pressure;
+      drift = advanceDrift(first, drift, ownVolumeChange, motion.volumeChange);
+      tension = leaveToNodes(first, viscous.now, drift, inverseVolume, stress);
+      ownPressure = drift.pressure;
     }
     Hourglass{data, law}.addViscousForces(first, hourglass);
     const Lanes sum =
-        storeCornerForces(first, x, gradient, stress, ownPressure, hourglass, inverseVolume);
+        storeCornerForces(first, x, gradient, stress, ownPressure, hourglass, inverseVolume) +
+        tension;
     const Lanes stiffening = load(&data.tangent(0, first)) + drift.stiffening;
     const Lanes step =
         OnePointStep<type, geometry>{data}.of(first, x, gradient, viscous.viscosity, stiffening);
@@ -86,26 +91,50 @@ private:
 
   KOKKOS_FORCEINLINE_FUNCTION VolumeDrift driftOf(const Lanes& volume, int first) const
   {
-    const Lanes own = volume / load(&data.referenceVolume(first));
-    return volumeDrift(own / load(&data.volumeRatio(0, first)),
+    return volumeDrift(volume / load(&data.referenceVolume(first)),
+                       load(&data.volumeRatio(0, first)),
                        data.lambda + 2.0 / 3.0 * data.shearModulus);
   }
 
   /// The drift at the end of the step, whose work is booked.
-  /// @param volume at n + 1; volumeChange over the step [m^3]
+  /// @param own, nodal: change of the element's volume, and of that which its nodes give it [m^3]
   KOKKOS_FORCEINLINE_FUNCTION VolumeDrift advanceDrift(int first, const VolumeDrift& old,
-                                                       const Lanes& volume,
-                                                       const Lanes& volumeChange) const
+                                                       const Lanes& own, const Lanes& nodal) const
   {
-    const VolumeDrift now = driftOf(volume, first);
+    const VolumeDrift now = driftOf(load(&data.volume(first)), first);
     if (data.dt > 0)
       addTo(data, ElementEnergy::Hourglass, first,
-            Lanes(-0.5) * (old.pressure + now.pressure) * volumeChange);
+            Lanes(0.5) *
+                ((old.tension + now.tension) * nodal - (old.pressure + now.pressure) * own));
     return now;
   }
 
-  /// Replaces the dilatation of the step by the mean of those at the corners.
-  KOKKOS_FORCEINLINE_FUNCTION void takeNodalDilatation(int first, MaterialPoint<Lanes>& point) const
+  /// Takes the mean tension off the stress, which acts through the volumes that nodes give their
+  /// elements: energies are functions of these (ElementBlock::addNodalTension). The deviator acts
+  /// on the volume that the nodes give. @returns the mean tension times that volume [N m]
+  KOKKOS_FORCEINLINE_FUNCTION Lanes leaveToNodes(int first, const Lanes& viscous,
+                                                 const VolumeDrift& drift,
+                                                 const Lanes& inverseVolume,
+                                                 SymTensorOf<Lanes>& stress) const
+  {
+    const Lanes nodal = load(&data.referenceVolume(first)) * load(&data.volumeRatio(0, first));
+    const Lanes mean = Lanes(1.0 / 3.0) * (stress.xx + stress.yy + stress.zz);
+    const Lanes share = nodal * inverseVolume;
+    stress.xx = share * (stress.xx - mean);
+    stress.yy = share * (stress.yy - mean);
+    stress.zz = share * (stress.zz - mean);
+    stress.xy *= share;
+    stress.yz *= share;
+    stress.zx *= share;
+    const Lanes tension = nodal * (mean - viscous + drift.tension);
+    store(tension, &data.meanTension(0, first));
+    return tension;
+  }
+
+  /// Replaces the dilatation of the step by the mean of those at the corners, and the volumes by
+  /// those that the nodes give.
+  KOKKOS_FORCEINLINE_FUNCTION void takeNodalDilatation(int first, Motion& motion,
+                                                       MaterialPoint<Lanes>& point) const
   {
     const int* const node = &data.connectivity(first, 0);
     Lanes sum(0.0);
@@ -117,12 +146,17 @@ private:
     de.xx += change;
     de.yy += change;
     de.zz += change;
+    for (Lanes* const own : {&motion.strain.xx, &motion.strain.yy, &motion.strain.zz})
+      *own += change;
     for (int i = 0; i < 3; ++i)
       point.displacementGradient(i, i) += change;
     const Lanes start = load(&data.volumeRatio(0, first));
     point.halfVolumeRatio = start / (Lanes(1.0) - Lanes(0.5) * mean);
     point.volumeRatio = point.halfVolumeRatio * (Lanes(1.0) + Lanes(0.5) * mean);
     store(point.volumeRatio, &data.volumeRatio(0, first));
+    const Lanes reference = load(&data.referenceVolume(first));
+    motion.volume = reference * point.halfVolumeRatio;
+    motion.volumeChange = reference * (point.volumeRatio - start);
   }
 
   /// Stress, history, hourglass forces and energies from n to n + 1, with the rates at n + 1/2.
