@@ -124,11 +124,12 @@ TEST_P(VolumeDrift, isAPartOfAnEnergyThatDoesNotHangOnTheWay)
   const bool flat = isFlat(mesh.type);
   const Material rubber = NeoHookean{makeLinearElastic(5e6, 0.4, 1000)};
   const auto bend = [&](const Vec3& p) {
-    return Vec3{.15 * std::sin(7 * p.y), -.25 * p.y, flat ? 0 : .1 * std::sin(5 * p.x)};
+    return Vec3{.1 * std::sin(4 * p.y), -.25 * p.y, flat ? 0 : .1 * std::sin(3 * p.x)};
   };
   const auto trade = [&](const Vec3& p)
   {
-    return Vec3{.05 * std::sin(40 * p.x + 20 * p.y), .04 * std::cos(50 * p.x), flat ? 0 : .1 * p.y};
+    return Vec3{.03 * std::sin(40 * p.x + 20 * p.y), .025 * std::cos(50 * p.x),
+                flat ? 0 : .1 * p.y};
   };
   // Work of all forces along a way made of legs, each to a place from the one before.
   const auto workAlong = [&](const std::vector<std::array<Real, 2>>& places, int steps)
