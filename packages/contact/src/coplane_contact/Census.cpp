@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace coplane
 {
@@ -184,32 +183,7 @@ private:
   }
 };
 
-/// Items all of whose pairs have a side without faces now: blocks that a stage adds. Collective.
-std::vector<int> itemsToCome(const Contact& contact)
-{
-  const ContactRules& rules = contact.rules();
-  const auto kinds = std::size_t(rules.kinds);
-  std::vector<std::int64_t> faces(kinds, 0);
-  for (const Face& face : contact.localFaces())
-    ++faces[std::size_t(rules.kindOf[std::size_t(face.group)])];
-  contact.comm().sum(faces);
-  std::vector<int> toCome, here;
-  for (std::size_t a = 0; a < kinds; ++a)
-    for (std::size_t b = 0; b < kinds; ++b)
-      (faces[a] > 0 && faces[b] > 0 ? here : toCome).push_back(rules.table[a * kinds + b].item);
-  for (std::vector<int>* items : {&toCome, &here})
-  {
-    std::sort(items->begin(), items->end());
-    items->erase(std::unique(items->begin(), items->end()), items->end());
-  }
-  std::vector<int> found;
-  std::set_difference(toCome.begin(), toCome.end(), here.begin(), here.end(),
-                      std::back_inserter(found));
-  return found;
-}
-
-/// What the items that declare joints are called of which no plane was closed, but for those whose
-/// blocks are to come. Collective.
+/// What the items that declare joints are called of which no plane was closed. Collective.
 std::vector<std::string> itemsWithoutPartner(const Contact& contact)
 {
   const auto& items = contact.rules().declaredItems;
@@ -229,10 +203,9 @@ std::vector<std::string> itemsWithoutPartner(const Contact& contact)
       closed[i] += item == items[i].first;
   }
   contact.comm().sum(closed);
-  const std::vector<int> toCome = itemsToCome(contact);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < items.size(); ++i)
-    if (closed[i] == 0 && !std::binary_search(toCome.begin(), toCome.end(), items[i].first))
+    if (closed[i] == 0)
       names.push_back(items[i].second);
   return names;
 }

@@ -83,6 +83,11 @@ void ElementForces::update(const NodalState& state, const NodeLayout& layout, Re
     const WorkWatch watch(work.elements[b]);
     blocks_[b].update(state.x, state.v, dt, dilatation);
   }
+}
+
+void ElementForces::addNodalTensions(const NodalState& state, const NodeLayout& layout,
+                                     WorkTimes& work)
+{
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     if (!isRigid(b) && blocks_[b].options().form == ElementForm::NodalPressure)
       addNodalTension(b, state, layout, work);

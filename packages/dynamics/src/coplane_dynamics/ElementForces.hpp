@@ -43,6 +43,9 @@ public:
   /// Stress, history, energies and corner forces over dt [s]; ElementBlock::update. Collective when
   /// a block has ElementForm::NodalPressure.
   void update(const NodalState& state, const NodeLayout& layout, Real dt, WorkTimes& work);
+  /// After update(), and after elements have died: what elements with ElementForm::NodalPressure
+  /// leave to their nodes. Collective when there are any.
+  void addNodalTensions(const NodalState& state, const NodeLayout& layout, WorkTimes& work);
   /// Sums of the corner forces at the owned nodes, in the order of element ids [N].
   void gather(const NodeVectors& force) const;
 

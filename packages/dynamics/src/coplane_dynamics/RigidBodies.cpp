@@ -303,8 +303,8 @@ void RigidBodies::moveNodes(Body& body, Real dt, const NodalState& state) const
   for (std::size_t i = 0; i < body.nodes.size(); ++i)
   {
     const int n = body.nodes[i];
-    // Differences of places first, which are exact: what they are known to far from the origin,
-    // over a step, would be much.
+    // Differences of places first, which are exact far from the origin: what places are known to
+    // there, over a step, would be much.
     const Vec3 way = ((body.nextCenter - at(state.x, n)) + body.nextTurn(body.arms[i])) +
                      (body.nextCenterRest - at(state.xRest, n));
     set(state.v, n, (1 / dt) * way);

@@ -221,6 +221,7 @@ void Solver::findForces(Real dt)
   subcycling_.endElements(dt, layout_, state_, elements_, work_);
   const std::vector<int> coming = coming_.blocks;
   const bool someDied = dt > 0 && erode(dt);
+  elements_.addNodalTensions(state_, layout_, work_);
   if (contact_ && !coming.empty() && declaresJoints())
     joinAdded(coming, clock_.time + dt);
   else if (contact_ && (searches_.isDue() || someDied))
@@ -248,6 +249,7 @@ void Solver::findElementForces()
   WorkTimes notBooked;
   notBooked.elements.assign(blocks().size(), 0);
   elements_.update(state_, layout_, 0, notBooked);
+  elements_.addNodalTensions(state_, layout_, notBooked);
 }
 
 bool Solver::erode(Real dt)

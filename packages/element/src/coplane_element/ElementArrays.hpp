@@ -32,7 +32,8 @@ struct ElementArrays
   ElementTable compression; ///< rows: rate <-tr D> of the last half step [1/s], pressure q [Pa]
   ElementTable energies;    ///< ElementEnergy [J]
   ElementTable deformation; ///< GreenNaghdi: deformation gradient of each point
-  ElementTable volumeRatio; ///< NodalPressure: mean over the corners
+  ElementTable volumeRatio; ///< NodalPressure: geometric mean over the corners
+  ElementTable ownTension;  ///< NodalPressure: mean of the initial stress [Pa]
   // full integration: rows of all points one after another
   ElementTable pointStress, pointHistory;
   ElementTable pointEnergy; ///< internal and viscous, per reference volume [J/m^3]
@@ -55,8 +56,8 @@ struct ElementArrays
       prefetchToWrite(&(*numbers)(first), laneCount);
     for (const ElementTable* const table :
          {&cornerMass, &pointMass, &stress, &history, &tangent, &hourglassForce,
-          &hourglassViscousForce, &compression, &energies, &deformation, &volumeRatio, &pointStress,
-          &pointHistory, &pointEnergy})
+          &hourglassViscousForce, &compression, &energies, &deformation, &volumeRatio, &ownTension,
+          &pointStress, &pointHistory, &pointEnergy})
       prefetchToWrite(table->batch(batch), table->extent(0) * laneCount);
     prefetchToWrite(&cornerForce(first, 0, 0), 3 * cornerForce.extent(1) * laneCount);
   }
@@ -66,10 +67,11 @@ struct ElementArrays
   static void forEachOfBoth(const ElementArrays& a, const ElementArrays& b, F&& f)
   {
     using A = ElementArrays;
-    for (const auto table : {&A::cornerMass, &A::pointMass, &A::stress, &A::history, &A::tangent,
-                             &A::hourglassForce, &A::hourglassViscousForce, &A::compression,
-                             &A::energies, &A::deformation, &A::volumeRatio, &A::pointStress,
-                             &A::pointHistory, &A::pointEnergy, &A::volumeChanges, &A::meanTension})
+    for (const auto table :
+         {&A::cornerMass, &A::pointMass, &A::stress, &A::history, &A::tangent, &A::hourglassForce,
+          &A::hourglassViscousForce, &A::compression, &A::energies, &A::deformation,
+          &A::volumeRatio, &A::ownTension, &A::pointStress, &A::pointHistory, &A::pointEnergy,
+          &A::volumeChanges, &A::meanTension})
       f(a.*table, b.*table);
     for (const auto numbers :
          {&A::mass, &A::referenceVolume, &A::referenceLength, &A::stableStep, &A::volume})

@@ -232,6 +232,7 @@ ElementArrays arraysOf(ElementType type, const ElementOptions& options,
       Values("deformation", tracked ? std::max(points, 1) * dim * dim : 0, columns);
   const bool nodal = options.form == ElementForm::NodalPressure;
   arrays.volumeRatio = Values("volumeRatio", nodal ? 1 : 0, columns);
+  arrays.ownTension = Values("ownTension", nodal ? 1 : 0, columns);
   arrays.volumeChanges = Values("volumeChanges", nodal ? 2 : 0, columns);
   arrays.meanTension = Values("meanTension", nodal ? 1 : 0, columns);
   return arrays;
@@ -338,6 +339,8 @@ void ElementBlock::setInitialStress(int element, const SymTensor& s)
   const Real values[6] = {s.xx, s.yy, s.zz, s.xy, s.yz, s.zx};
   for (int k = 0; k < 6; ++k)
     arrays_.stress(k, element) = values[k];
+  if (arrays_.ownTension.extent(0) > 0)
+    arrays_.ownTension(0, element) = (s.xx + s.yy + s.zz) / 3;
   const auto start = initialHistory(law_, s, centres_[std::size_t(element)], came_);
   const int rows = int(arrays_.history.extent(0));
   for (int k = 0; k < rows; ++k)

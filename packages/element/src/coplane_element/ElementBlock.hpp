@@ -47,7 +47,7 @@ public:
   /// For ElementForm::NodalPressure, before update(): increments of volume over the step and
   /// volumes in its middle, whose sums around a node give its dilatation, sum / sum.
   void findVolumeChanges(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt);
-  /// Two rows, see there [m^3].
+  /// Two rows, see there [m^3]; after update() the first one is the dilatation that it took [-].
   ConstValues volumeChanges() const { return arrays_.volumeChanges; }
 
   /// Advances stress, history and energies over dt, and computes the forces, volumes and stable
@@ -168,6 +168,7 @@ public:
     f("element_energy", int(arrays_.energies.extent(0)), arrays_.energies);
     for (const auto& [name, values] : {std::pair{"deformation", arrays_.deformation},
                                        {"volume_ratio", arrays_.volumeRatio},
+                                       {"own_tension", arrays_.ownTension},
                                        {"point_stress", arrays_.pointStress},
                                        {"point_history", arrays_.pointHistory},
                                        {"point_energy", arrays_.pointEnergy}})

@@ -159,6 +159,26 @@ ContactRule ruleOf(const ContactCard& contact, const ContactPairCard& card, Cont
   rule.item = int(&card - contact.pairs.data());
   return rule;
 }
+/// Items all of whose faces wait for blocks that a stage adds find no partner at the start.
+void leaveOutItemsToCome(const std::vector<int>& absentBlocks, std::size_t blocks,
+                         ContactRules& rules)
+{
+  const auto kinds = std::size_t(rules.kinds);
+  std::vector<char> isHere(kinds, 0);
+  for (std::size_t group = 0; group < rules.kindOf.size(); ++group)
+    if (group >= blocks || std::count(absentBlocks.begin(), absentBlocks.end(), int(group)) == 0)
+      isHere[std::size_t(rules.kindOf[group])] = 1;
+  std::set<int> here, toCome;
+  for (std::size_t a = 0; a < kinds; ++a)
+    for (std::size_t b = 0; b < kinds; ++b)
+      (isHere[a] && isHere[b] ? here : toCome).insert(rules.table[a * kinds + b].item);
+  auto& items = rules.declaredItems;
+  items.erase(std::remove_if(items.begin(), items.end(),
+                             [&](const auto& item) {
+                               return toCome.count(item.first) > 0 && here.count(item.first) == 0;
+                             }),
+              items.end());
+}
 } // namespace
 
 void addContactRules(const Deck& deck, const Mesh& mesh, const Comm& comm, Model& model)
@@ -180,5 +200,6 @@ void addContactRules(const Deck& deck, const Mesh& mesh, const Comm& comm, Model
     for (std::size_t b = 0; b < kinds.size(); ++b)
       if (const ContactPairCard* card = contactPairFor(contact, *kinds[a], *kinds[b]))
         rules.table[a * kinds.size() + b] = ruleOf(contact, *card, general, rules.joints);
+  leaveOutItemsToCome(model.absentBlocks, mesh.blocks.size(), rules);
 }
 } // namespace coplane

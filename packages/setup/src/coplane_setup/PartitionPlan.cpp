@@ -32,7 +32,7 @@ PartitionCosts costsOf(const Mesh& mesh, const Deck& deck)
                                                   {ElementType::Tri3, 0.23}};
   static const std::map<std::string, Real> ofForm{{"one_point", 1},
                                                   {"assumed_strain", 1.25},
-                                                  {"nodal_pressure", 1.25},
+                                                  {"nodal_pressure", 1.5},
                                                   {"full_integration", 3.2},
                                                   {"full_integration_plain", 3.2}};
   PartitionCosts costs;

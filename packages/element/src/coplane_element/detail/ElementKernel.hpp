@@ -66,18 +66,26 @@ struct ElementKernel
       advance(first, v, motion, gradient.volume, length, point, stress, hourglass);
     }
     Lanes ownPressure = viscous.now;
-    Lanes tension(0.0);
+    Lanes tension(0.0), share(1.0);
     if (hasNodalPressure())
     {
       drift = advanceDrift(first, drift, ownVolumeChange, motion.volumeChange);
-      tension = leaveToNodes(first, viscous.now, drift, inverseVolume, stress);
-      ownPressure = drift.pressure;
+      const Lanes own = load(&data.ownTension(0, first));
+      if (data.dt > 0)
+        addTo(data, ElementEnergy::Internal, first, own * (ownVolumeChange - motion.volumeChange));
+      share =
+          load(&data.referenceVolume(first)) * load(&data.volumeRatio(0, first)) * inverseVolume;
+      tension =
+          leaveToNodes(first, drift.tension - viscous.now - own, share * gradient.volume, stress);
+      ownPressure = drift.pressure - own;
+      scale(stress, share);
     }
     Hourglass{data, law}.addViscousForces(first, hourglass);
     const Lanes sum =
         storeCornerForces(first, x, gradient, stress, ownPressure, hourglass, inverseVolume) +
         tension;
-    const Lanes stiffening = load(&data.tangent(0, first)) + drift.stiffening;
+    const Lanes stiffening =
+        (load(&data.tangent(0, first)) + drift.stiffening) * branchFree::larger(share, Lanes(1.0));
     const Lanes step =
         OnePointStep<type, geometry>{data}.of(first, x, gradient, viscous.viscosity, stiffening);
     storeStep(data, first, step, gradient.volume > Lanes(0.0), sum);
@@ -110,25 +118,26 @@ private:
   }
 
   /// Takes the mean tension off the stress, which acts through the volumes that nodes give their
-  /// elements: energies are functions of these (ElementBlock::addNodalTension). The deviator acts
-  /// on the volume that the nodes give. @returns the mean tension times that volume [N m]
-  KOKKOS_FORCEINLINE_FUNCTION Lanes leaveToNodes(int first, const Lanes& viscous,
-                                                 const VolumeDrift& drift,
-                                                 const Lanes& inverseVolume,
+  /// elements: energies are functions of these (ElementBlock::addNodalTension). What an initial
+  /// stress has of it stays with the element: that is in balance also where it changes with place.
+  /// @param more of the tension; nodal: volume that the nodes give [m^3]
+  /// @returns what is stored for the nodes [N m]
+  KOKKOS_FORCEINLINE_FUNCTION Lanes leaveToNodes(int first, const Lanes& more, const Lanes& nodal,
                                                  SymTensorOf<Lanes>& stress) const
   {
-    const Lanes nodal = load(&data.referenceVolume(first)) * load(&data.volumeRatio(0, first));
     const Lanes mean = Lanes(1.0 / 3.0) * (stress.xx + stress.yy + stress.zz);
-    const Lanes share = nodal * inverseVolume;
-    stress.xx = share * (stress.xx - mean);
-    stress.yy = share * (stress.yy - mean);
-    stress.zz = share * (stress.zz - mean);
-    stress.xy *= share;
-    stress.yz *= share;
-    stress.zx *= share;
-    const Lanes tension = nodal * (mean - viscous + drift.tension);
+    for (Lanes* const along : {&stress.xx, &stress.yy, &stress.zz})
+      *along -= mean;
+    const Lanes tension = nodal * (mean + more);
     store(tension, &data.meanTension(0, first));
     return tension;
+  }
+
+  static KOKKOS_FORCEINLINE_FUNCTION void scale(SymTensorOf<Lanes>& tensor, const Lanes& by)
+  {
+    for (Lanes* const part :
+         {&tensor.xx, &tensor.yy, &tensor.zz, &tensor.xy, &tensor.yz, &tensor.zx})
+      *part *= by;
   }
 
   /// Replaces the dilatation of the step by the mean of those at the corners, and the volumes by
@@ -156,7 +165,8 @@ private:
     store(point.volumeRatio, &data.volumeRatio(0, first));
     const Lanes reference = load(&data.referenceVolume(first));
     motion.volume = reference * point.halfVolumeRatio;
-    motion.volumeChange = reference * (point.volumeRatio - start);
+    motion.volumeChange = motion.volume * mean; // no difference of ratios near 1
+    store(mean, &data.volumeChanges(0, first));
   }
 
   /// Stress, history, hourglass forces and energies from n to n + 1, with the rates at n + 1/2.

@@ -20,7 +20,7 @@ struct ElementKernelData : ElementArrays
   int batches = 0;
   const Material* material = nullptr;
   ConstArray<Real> nodalDilatation{}; ///< per local node, of the step; NodalPressure only
-  ConstArray<Real> nodalTension{};    ///< the same at its end [Pa]
+  ConstArray<Real> nodalTension{};    ///< per local node; NodalPressure only [Pa]
 
   /// lambda for bounds of frequencies: 0 where it is negative [Pa].
   Real lambdaOfBound() const { return lambda > 0 ? lambda : 0; }
