@@ -74,9 +74,8 @@ namespace
 /// Collective.
 void reportPlace(const Solver& solver)
 {
-  constexpr Real farFromOrigin = 1e4; // sizes of the model
-  const Extent extent = extentOf(solver.mesh(), solver.comm());
-  if (extent.farthest > farFromOrigin * extent.size)
+  const ModelExtent extent = extentOf(solver.mesh(), solver.comm());
+  if (extent.isFarFromOrigin())
     logWarning("a model far from the origin",
                fmt::format("the model is {:.3g} m large and lies {:.3g} m from the origin, where "
                            "places are known to {:.1g} m. Motions are summed up exactly, but "

@@ -74,6 +74,36 @@ contact:
   EXPECT_EQ(rules.declaredItems[0].second, "contact.pairs.0 (side sets bed and *)");
 }
 
+/// The start knows which declared joints have to find a partner then.
+TEST(ContactRulesOfDeck, declaredJointsOfBlocksToComeAreNotAskedFor)
+{
+  const std::string stages = R"(
+stages:
+  - {name: first, until: 0.5}
+  - {name: second, add: [upper]}
+)";
+  const auto asked = [&](const std::string& contact)
+  {
+    std::vector<int> items;
+    for (const auto& [item, name] :
+         modelOf(blocksOfTwo + joints + contact + stages).contactRules.declaredItems)
+      items.push_back(item);
+    return items;
+  };
+  EXPECT_EQ(asked(R"(
+contact:
+  default_joint: dry
+  pairs:
+    - {blocks: [lower, upper], joint: mortar, declared: true}
+    - {blocks: [lower, lower], joint: mortar, declared: true}
+)"),
+            std::vector<int>{1});
+  EXPECT_EQ(asked(R"(
+contact: {default_joint: dry, pairs: [{blocks: ["*", "*"], joint: mortar, declared: true}]}
+)"),
+            std::vector<int>{0});
+}
+
 TEST(ContactRulesOfDeck, areTheSameOnAllRanks)
 {
   const Model model = modelOf(blocksOfTwo + joints + R"(

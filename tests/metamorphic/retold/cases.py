@@ -111,10 +111,10 @@ LONG = "minutes for one way of telling it: not told yet"
 UNTOLD = {
     **dict.fromkeys(["V35_lamb", "V36_V37_shock_waves", "V40_bar_and_cantilever", "V42_simple_shear", "V43_energy_order", "V44_punch", "V46_concrete_point", "V47_crack_band",
                      "V48_joint_paths", "V73_detonation", "V74_air_blast", "V76_spinning_block", "V83_soil_column", "V85_compliant_base", "V92_opening_in_rock", "fields", "free_field_sides",
-                     "maxwell_damping"], NONE),
+                     "maxwell_damping", "nodal_pressure"], NONE),
     **dict.fromkeys(["V49_taylor_anvil", "V50_spinning_ring", "V72_axisymmetric_contact", "V75_cylinder_test", "ring_forms", "penetration", "perforation"], AXIS),
     **dict.fromkeys(["conditions_act", "cut_blocks", "cut_rock", "erosion", "fragments", "safe_step", "V62_search_interval", "V91_stages"], OWN),
-    **dict.fromkeys(["V87_cracked_beam", "V87_lines", "V93_crushed_joint", "declared_joints", "fast_blocks", "ring_contacts", "symmetry"], ITSELF),
+    **dict.fromkeys(["V87_cracked_beam", "V87_lines", "V93_crushed_joint", "declared_joints", "far_away", "fast_blocks", "ring_contacts", "symmetry"], ITSELF),
     **{name: SAME.format(case) for name, case in (("arch_2d", "V53"), ("ball_wall_2d", "V57"), ("bars_2d", "V21"), ("rocking_block_2d", "V51"))},
     "V84_factor_of_safety": ELSEWHERE,
     "deep_slides": "soft bodies that slide tenths of an element deep in each other: which events come hangs on round-off, motions are up to 0.3 apart, and one scene of 29 is stopped when it is turned",

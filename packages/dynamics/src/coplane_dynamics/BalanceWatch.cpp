@@ -44,7 +44,7 @@ void BalanceWatch::open(const EnergyBalance& initial, const Parts& parts)
   std::vector<ExactSum> mass(1);
   for (int n = 0; n < parts.layout.owned(); ++n)
     mass[0].add(state.mass(n));
-  const Extent extent = extentOf(parts.mesh(), parts.comm);
+  const ModelExtent extent = extentOf(parts.mesh(), parts.comm);
   // Thousands of units in the last place of what moves, and some of where it does.
   const Real length = 1e-12 * extent.size + 4 * extent.digits();
   const Real speed = length / parts.clock.nextStep;

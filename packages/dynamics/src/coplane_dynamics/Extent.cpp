@@ -5,7 +5,7 @@
 
 namespace coplane
 {
-Extent extentOf(const RankMesh& mesh, const Comm& comm)
+ModelExtent extentOf(const RankMesh& mesh, const Comm& comm)
 {
   std::vector<Real> most(6, -infinity); // largest and minus least of each axis
   for (const Vec3& x : mesh.coordinates)
@@ -15,7 +15,7 @@ Extent extentOf(const RankMesh& mesh, const Comm& comm)
       most[std::size_t(2 * c + 1)] = std::max(most[std::size_t(2 * c + 1)], -x[c]);
     }
   comm.max(most);
-  Extent extent;
+  ModelExtent extent;
   for (std::size_t c = 0; c < 6; c += 2)
   {
     extent.size = std::max(extent.size, most[c] + most[c + 1]);

@@ -8,15 +8,17 @@
 namespace coplane
 {
 /// Where a model lies, by the coordinates of its mesh.
-struct Extent
+struct ModelExtent
 {
   Real size = 0;     ///< longest side of the box around it [m]
   Real farthest = 0; ///< largest coordinate [m]
 
+  /// Places have few digits left for how the model moves.
+  bool isFarFromOrigin() const { return farthest > 1e4 * size; }
   /// What its places are known to [m].
   Real digits() const { return farthest * std::numeric_limits<Real>::epsilon(); }
 };
 
 /// Collective.
-Extent extentOf(const RankMesh& mesh, const Comm& comm);
+ModelExtent extentOf(const RankMesh& mesh, const Comm& comm);
 } // namespace coplane

@@ -55,11 +55,16 @@ void NodalMotion::drift(Real dt, const NodalState& state)
 {
   const auto x = state.x, rest = state.xRest;
   const ConstNodeVectors v = state.v;
-  parallelFor(
-      "coplane::dynamics::drift", state.owned(), KOKKOS_LAMBDA(const int n) {
-        for (int c = 0; c < 3; ++c)
-          addCompensated(x(n, c), rest(n, c), dt * v(n, c));
-      });
+  if (state.keepsRests)
+    parallelFor(
+        "coplane::dynamics::drift", state.owned(), KOKKOS_LAMBDA(const int n) {
+          for (int c = 0; c < 3; ++c)
+            addCompensated(x(n, c), rest(n, c), dt * v(n, c));
+        });
+  else
+    parallelFor(
+        "coplane::dynamics::drift", state.owned(),
+        KOKKOS_LAMBDA(const int n) { set(x, n, at(x, n) + dt * at(v, n)); });
   bodies_.drift(dt);
   freeFields_.advance(dt);
 }

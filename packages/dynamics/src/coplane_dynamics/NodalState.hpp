@@ -54,6 +54,10 @@ struct NodalState
   /// in balance act at different times in a cycle [J].
   Array<Real> swing;
 
+  /// Whether xRest is kept: far from the origin. Near it what a place cannot hold is nothing, and
+  /// what lies flush stays flush to the last bit.
+  bool keepsRests = false;
+
   explicit NodalState(const RankMesh& mesh);
   int owned() const { return int(force.extent(0)); }
   /// Follows a layout whose ghost nodes have changed; the values of ghosts come with the next

@@ -293,6 +293,8 @@ void RigidBodies::kick(const KickTimes& times, Real massDamping, Real localDampi
     body.nextCenter = body.center;
     body.nextCenterRest = body.centerRest;
     addCompensated(body.nextCenter, body.nextCenterRest, dt * body.velocity);
+    if (!state.keepsRests)
+      body.nextCenterRest = {};
     body.nextTurn = step.after(body.turn);
     moveNodes(body, dt, state);
   }

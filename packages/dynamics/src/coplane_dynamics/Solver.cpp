@@ -1,6 +1,7 @@
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_core/WorkWatch.hpp>
+#include <coplane_dynamics/Extent.hpp>
 #include <coplane_dynamics/Rebalancer.hpp>
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_dynamics/detail/ContactFaces.hpp>
@@ -52,6 +53,7 @@ Solver::Solver(Model model, const Comm& comm)
       subcycling_(model_.time), searches_(model_.searchEvery),
       relaxation_(model_.conditions.relaxation)
 {
+  state_.keepsRests = extentOf(mesh(), comm).isFarFromOrigin();
   attempt([&] { elements_.setInitialStress(model_); });
   attempt([&] { startVelocities(); });
   erosion_.emplace(model_, elements_);
