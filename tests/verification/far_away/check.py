@@ -45,6 +45,14 @@ for name, speed, options in (("a specimen", 1e-3, {}), ("a specimen, slowly", 2e
     case.check(f"{name}: way of the platen [m]", -f["platen_displacement_x"][-1], way, 2 * DIGITS)
     case.check(f"{name}: reaction of the wall far away over that at the origin", f["wall_reaction_x"][-1] / h["wall_reaction_x"][-1], 1, 2e-2 if speed < 1e-4 else 1e-3)
 case.same_bits("substeps_slowly_far", recipe, deck, far, ranks=2, threads=2, change_mesh=lambda x: x + PLACE[:2])
+case.restarts("substeps_slowly_far", recipe, deck, far, 0.5 * deck["time"]["end"], change_mesh=lambda x: x + PLACE[:2])
+
+# --- the watch on the energy sees the same ----------------------------------------------------------------------------------
+recipe, deck = pressed(1e-3)
+deck["time"]["energy_tolerance"] = 1e-14  # less than round-off
+for where, place in (("at the origin", 0 * PLACE[:2]), ("far away", PLACE[:2])):
+    watched = case.attempt(f"watched_{where.replace(' ', '_')}", recipe, deck, change_mesh=lambda x: x + place)
+    case.check_equal(f"{where}: exit code of a run that has to hold its energy to less than round-off", watched.code, 6)
 
 # --- a rigid body that flies slowly and turns ---------------------------------------------------------------------------
 recipe = {"dimension": 3, "parts": [{"shape": "box", "block": "body", "size": [0.3, 0.2, 0.1], "divisions": [3, 2, 1]}]}

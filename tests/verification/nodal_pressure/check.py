@@ -71,6 +71,11 @@ for dimension in (2, 3):
     deck = {"materials": {"soil": {"model": "linear_elastic", "density": 2000, "youngs_modulus": 5e7, "poisson_ratio": 0.3}}, "blocks": {"soil": {"material": "soil", "element": "nodal_pressure"}}, "gravity": [0, -9.81, 0],
             "conditions": [{"type": "fixed", "node_set": "base"}, *({"type": "fixed", "node_set": name, "components": [axis]} for name, axis in rollers.items())], "contact": {"enabled": False},
             "initial": [{"block": "soil", "stress_point": [0, 5, 0], "stress_axis": [0, 1, 0], "stress_gradient": [0.4 * weight, weight, 0.4 * weight, 0, 0, 0]}], "time": {"end": 0.1}, "history": {"every": 1e-3}}  # fmt: skip
+    if dimension == 2:  # a push: what stays with elements is a part of the state
+        pushed = {**deck, "initial": [{**deck["initial"][0], "velocity": [0, -0.5, 0]}]}
+        run = case.run("ground_pushed", recipe, pushed)
+        case.same_bits("ground_pushed", recipe, pushed, run, ranks=3)
+        case.restarts("ground_pushed", recipe, pushed, run, 0.05)
     run = case.attempt(f"ground_{dimension}", recipe, deck)  # nothing moves: there is nothing that balances could be compared with
     case.check_equal(f"ground in {dimension}D: exit code", run.code, 0)
     case.check(f"ground in {dimension}D: largest kinetic energy [J]", run.history["kinetic"].max(), 0, 1e-20)

@@ -340,10 +340,6 @@ KOKKOS_INLINE_FUNCTION bool leavesSideways(const Plane& plane, const HalfStepFac
   return pair.wayOut < wayOutOfCorners(scale);
 }
 
-/// Round-off of a gap, as a fraction of the size of the overlap [-]: faces that lie on each other
-/// to the last digit count as near.
-constexpr Real roundOffOfGap = 1e-8;
-
 /// Steps B to H of candidate pairs in one cycle; step A has been done for their faces. In one
 /// piece: in steps of their own that hand on a struct they took 4 % longer (coplane_bench_contact,
 /// flat and sheared interfaces, GCC 12).

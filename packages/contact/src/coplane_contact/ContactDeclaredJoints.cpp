@@ -112,8 +112,8 @@ Real closeUnder(const SymTensor& stress, Real pressure, const JointLaw& law, Rea
   Real hardened = 1;
   if (law.penalty && forces == ContactOptions::Forces::Potential && !plane.history.bonded)
   {
-    closure *= PenaltyHardening::closureUnder(closure / plane.depthLimit);
-    hardened = PenaltyHardening::energy(closure / plane.depthLimit);
+    closure *= hardenedClosure(closure / plane.depthLimit);
+    hardened = HardenedPenalty<Real>(closure / plane.depthLimit).value;
   }
   plane.history.maximumClosure = std::max(closure, 0.0);
   plane.offset += closure;

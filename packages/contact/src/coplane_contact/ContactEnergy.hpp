@@ -127,28 +127,36 @@ struct PenaltyHardening
   /// z^4 / (1 + z^4) where the second derivative of the energy is largest, (15 - sqrt(45)) / 24: it
   /// is 12.3 k there.
   static constexpr Real steepest = 0.3455;
-
-  /// Energy of an even closure over k c^2 / 2, z: closure over the depth.
-  static KOKKOS_INLINE_FUNCTION Real energy(Real z) { return 1 + part * grown(z); }
-  /// Pressure of an even closure over k c.
-  static KOKKOS_INLINE_FUNCTION Real pressure(Real z)
-  {
-    return energy(z) + 2 * part * grown(z) * (1 - grown(z));
-  }
-  /// Even closure under a pressure, for one of 1 that would do without hardening: 0 to 1.
-  /// @param z that closure over the depth
-  static Real closureUnder(Real z)
-  {
-    Real low = 0, high = 1;
-    for (int step = 0; step < 60; ++step)
-    {
-      const Real middle = 0.5 * (low + high);
-      (middle * pressure(middle * z) < 1 ? low : high) = middle;
-    }
-    return high;
-  }
-
-private:
-  static KOKKOS_INLINE_FUNCTION Real grown(Real z) { return z * z * z * z / (1 + z * z * z * z); }
 };
+
+/// The factor of the energy, H.
+template <class T>
+struct HardenedPenalty
+{
+  T value;
+  T slope; ///< z H'
+
+  KOKKOS_FORCEINLINE_FUNCTION explicit HardenedPenalty(const T& z)
+  {
+    const T z4 = z * z * z * z, grown = z4 / (1.0 + z4);
+    value = 1.0 + PenaltyHardening::part * grown;
+    slope = 4.0 * PenaltyHardening::part * grown * (1.0 - grown);
+  }
+  /// Pressure of an even closure over k c.
+  KOKKOS_INLINE_FUNCTION T pressure() const { return value + 0.5 * slope; }
+};
+
+/// Even closure of a penalty that bears what one which does not harden bears at a closure of 1: 0
+/// to 1.
+/// @param z that closure over the depth
+inline Real hardenedClosure(Real z)
+{
+  Real low = 0, high = 1;
+  for (int step = 0; step < 60; ++step)
+  {
+    const Real middle = 0.5 * (low + high);
+    (middle * HardenedPenalty<Real>(middle * z).pressure() < 1 ? low : high) = middle;
+  }
+  return high;
+}
 } // namespace coplane

@@ -145,7 +145,7 @@ public:
   /// chi: where the way out is sideways, over an edge of each body, nothing is in contact. Uniform
   /// closure c over a strip of width w between such edges: a function of w / 2c. An edge counts by
   /// the closure along it, so that a strip begins smoothly when the closed part grows up to one.
-  /// H: PenaltyHardening.
+  /// H: HardenedPenalty.
   /// @param inverseDepth 1 / depth, 0: no hardening [1/m]
   KOKKOS_INLINE_FUNCTION T press(const T& stiffness, const T& inverseDepth,
                                  EnergyDensity<T>& density)
@@ -154,9 +154,8 @@ public:
     const T& v = moments.volume;
     const T& s = moments.squares;
     const T mean = choose(v > 0.0, s / v, T(0.0)); // shear may have lifted all of it
-    const T z = inverseDepth * mean, z4 = z * z * z * z, grown = z4 / (1.0 + z4);
-    const T hard = 1.0 + PenaltyHardening::part * grown;
-    const T hardSlope = 4.0 * PenaltyHardening::part * grown * (1.0 - grown);
+    const HardenedPenalty<T> hardened(inverseDepth * mean);
+    const T &hard = hardened.value, &hardSlope = hardened.slope;
     wayOut = T(1.0);
     alongStrip_ = T(0.0);
     T slope(0.0);

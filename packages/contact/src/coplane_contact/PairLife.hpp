@@ -122,6 +122,10 @@ KOKKOS_INLINE_FUNCTION bool wasFoundLate(const Plane& plane, bool inContact)
   return plane.isNew() && !plane.declared && !plane.isBorn() && inContact;
 }
 
+/// Round-off of a gap, as a fraction of the size of a face or an overlap [-]: faces that lie on
+/// each other to the last digit count as near, and not as closed.
+constexpr Real roundOffOfGap = 1e-8;
+
 /// Length of an area: in two dimensions it is one, times a metre [m].
 template <int Dim, class T>
 KOKKOS_FORCEINLINE_FUNCTION T lengthOfArea(const T& area)

@@ -3,7 +3,7 @@
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/BalanceWatch.hpp>
-#include <coplane_dynamics/Extent.hpp>
+#include <coplane_dynamics/ModelExtent.hpp>
 #include <coplane_dynamics/WorstEntities.hpp>
 #include <coplane_mesh/FaceName.hpp>
 

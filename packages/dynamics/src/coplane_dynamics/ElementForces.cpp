@@ -93,34 +93,46 @@ void ElementForces::addNodalTensions(const NodalState& state, const NodeLayout& 
       addNodalTension(b, state, layout, work);
 }
 
+/// Sums around every node of two numbers of the living elements of one block, the first over the
+/// second. Collective.
+template <class Above, class Below>
+const Array<Real>& ElementForces::meanAtNodes(std::size_t b, const NodeLayout& layout,
+                                              const Above& above, const Below& below)
+{
+  if (int(atNodes_.extent(0)) != layout.size())
+    atNodes_ = Array<Real>("coplane::dynamics::atNodes", layout.size());
+  const auto gather = gathers_[b].view();
+  const auto mean = atNodes_;
+  const ElementBlock* const elements = &blocks_[b];
+  const int corners = topology(elements->type()).nodes;
+  parallelFor(
+      "coplane::dynamics::meanAtNodes", layout.owned(), KOKKOS_LAMBDA(const int n) {
+        Real sum = 0, weight = 0;
+        for (const int entry : gather[n])
+          if (elements->isAlive(entry / corners))
+          {
+            sum += above(entry / corners);
+            weight += below(entry / corners);
+          }
+        mean(n) = weight > 0 ? sum / weight : 0;
+      });
+  layout.refresh(atNodes_);
+  return atNodes_;
+}
+
 /// The mean stress of an element acts through the volumes that its nodes give to all elements
 /// around them. Collective.
 void ElementForces::addNodalTension(std::size_t b, const NodalState& state,
                                     const NodeLayout& layout, WorkTimes& work)
 {
   ElementBlock& block = blocks_[b];
-  if (int(ofNodes_.extent(0)) != layout.size())
-    ofNodes_ = Array<Real>("coplane::dynamics::ofNodes", layout.size());
-  const auto gather = gathers_[b].view();
   const auto tensions = block.meanTension();
   const auto volumes = block.volume();
-  const auto tension = ofNodes_;
-  const ElementBlock* const elements = &block;
-  const int corners = topology(block.type()).nodes;
-  parallelFor(
-      "coplane::dynamics::nodalTension", layout.owned(), KOKKOS_LAMBDA(const int n) {
-        Real sum = 0, volume = 0;
-        for (const int entry : gather[n])
-          if (elements->isAlive(entry / corners))
-          {
-            sum += tensions(0, entry / corners);
-            volume += volumes(entry / corners);
-          }
-        tension(n) = volume > 0 ? sum / volume : 0;
-      });
-  layout.refresh(ofNodes_);
+  const ConstArray<Real> tension = meanAtNodes(
+      b, layout, [tensions](int e) { return tensions(0, e); },
+      [volumes](int e) { return volumes(e); });
   const WorkWatch watch(work.elements[b]);
-  block.addNodalTension(state.x, ofNodes_);
+  block.addNodalTension(state.x, tension);
 }
 
 /// Dilatation of the step at every node from the elements of one block around it; empty where the
@@ -135,26 +147,10 @@ ConstArray<Real> ElementForces::nodalDilatation(std::size_t b, const NodalState&
     const WorkWatch watch(work.elements[b]);
     block.findVolumeChanges(state.x, state.v, dt);
   }
-  if (int(ofNodes_.extent(0)) != layout.size())
-    ofNodes_ = Array<Real>("coplane::dynamics::ofNodes", layout.size());
-  const auto gather = gathers_[b].view();
   const auto changes = block.volumeChanges();
-  const auto dilatation = ofNodes_;
-  const ElementBlock* const elements = &block;
-  const int corners = topology(block.type()).nodes;
-  parallelFor(
-      "coplane::dynamics::nodalDilatation", layout.owned(), KOKKOS_LAMBDA(const int n) {
-        Real change = 0, volume = 0;
-        for (const int entry : gather[n])
-          if (elements->isAlive(entry / corners))
-          {
-            change += changes(0, entry / corners);
-            volume += changes(1, entry / corners);
-          }
-        dilatation(n) = volume > 0 ? change / volume : 0;
-      });
-  layout.refresh(ofNodes_);
-  return ofNodes_;
+  return meanAtNodes(
+      b, layout, [changes](int e) { return changes(0, e); },
+      [changes](int e) { return changes(1, e); });
 }
 
 namespace

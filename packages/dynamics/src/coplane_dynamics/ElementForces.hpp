@@ -83,6 +83,9 @@ private:
   /// order on every rank.
   using Gather = Lists<int>;
   static Gather gatherOf(const RankMesh::Block& part, int ownedNodes);
+  template <class Above, class Below>
+  const Array<Real>& meanAtNodes(std::size_t block, const NodeLayout& layout, const Above& above,
+                                 const Below& below);
   void addNodalTension(std::size_t block, const NodalState& state, const NodeLayout& layout,
                        WorkTimes& work);
   ConstArray<Real> nodalDilatation(std::size_t block, const NodalState& state,
@@ -91,6 +94,6 @@ private:
   std::vector<ElementBlock> blocks_; ///< in the order of the mesh file
   std::vector<Gather> gathers_;
   std::vector<char> rigid_;
-  Array<Real> ofNodes_; ///< dilatations of the step, then mean tensions, of a block; by node
+  Array<Real> atNodes_; ///< see meanAtNodes()
 };
 } // namespace coplane

@@ -131,8 +131,7 @@ void Erosion::book(const RankMesh::Block& part, const ElementBlock& block, int b
                  at(step.v, part.connectivity[e * corners + k]));
   ExactSum& sum = energies_[b];
   sum.add(0.5 * step.dt * power);
-  if (block.options().form == ElementForm::NodalPressure) // what it leaves to its nodes
-    sum.add(-0.5 * block.meanTension()(0, e) * block.volumeChanges()(0, e));
+  sum.add(-block.workLeftToNodes(e));
   for (const ElementEnergy kind :
        {ElementEnergy::Internal, ElementEnergy::Hourglass, ElementEnergy::Viscous})
     sum.add(block.energy(e, kind));

@@ -1,7 +1,7 @@
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_core/WorkWatch.hpp>
-#include <coplane_dynamics/Extent.hpp>
+#include <coplane_dynamics/ModelExtent.hpp>
 #include <coplane_dynamics/Rebalancer.hpp>
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_dynamics/detail/ContactFaces.hpp>

@@ -42,7 +42,7 @@ struct ElementArrays
   CornerVectors cornerForce;  ///< [N]
   Array<Real> stableStep;     ///< [s]
   Array<Real> volume;         ///< [m^3]
-  ElementTable volumeChanges; ///< see ElementBlock::findVolumeChanges() [m^3]
+  ElementTable volumeChanges; ///< see ElementBlock::volumeChanges()
   ElementTable meanTension;   ///< see ElementBlock::addNodalTension() [N m]
 
   /// Brings what a kernel reads and writes of a batch into the cache. These are more stretches of

@@ -170,9 +170,22 @@ struct NodalTension
       for (int c = 0; c < M::nodes; ++c)
         store(corners[c] + mean, force[i][c]);
     }
-    addForces<M>(data, first, force);
+    storeForces<M, true>(data, first, force);
   }
 };
+
+/// A kernel of triangles or tetrahedra over all batches.
+template <template <ElementType, Geometry> class Kernel>
+void forSimplices(const char* name, ElementType type, const ElementKernelData& data)
+{
+  const auto run = [&](const auto& kernel) { parallelFor(name, data.batches, kernel); };
+  if (type == ElementType::Tet4)
+    run(Kernel<ElementType::Tet4, Geometry::PlaneStrain>{data});
+  else if (data.options.geometry == Geometry::Axisymmetric)
+    run(Kernel<ElementType::Tri3, Geometry::Axisymmetric>{data});
+  else
+    run(Kernel<ElementType::Tri3, Geometry::PlaneStrain>{data});
+}
 
 /// Calls f with the type as a constant.
 template <class F>
@@ -233,7 +246,7 @@ ElementArrays arraysOf(ElementType type, const ElementOptions& options,
   const bool nodal = options.form == ElementForm::NodalPressure;
   arrays.volumeRatio = Values("volumeRatio", nodal ? 1 : 0, columns);
   arrays.ownTension = Values("ownTension", nodal ? 1 : 0, columns);
-  arrays.volumeChanges = Values("volumeChanges", nodal ? 2 : 0, columns);
+  arrays.volumeChanges = Values("volumeChanges", nodal ? 3 : 0, columns);
   arrays.meanTension = Values("meanTension", nodal ? 1 : 0, columns);
   return arrays;
 }
@@ -354,17 +367,8 @@ void ElementBlock::setInitialStress(int element, const SymTensor& s)
 
 void ElementBlock::findVolumeChanges(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt)
 {
-  if (count_ == 0)
-    return;
-  const ElementKernelData data = kernelData(x, v, dt);
-  const auto run = [&](const auto& changes)
-  { parallelFor("coplane::element::volumeChanges", data.batches, changes); };
-  if (type_ == ElementType::Tet4)
-    run(VolumeChanges<ElementType::Tet4, Geometry::PlaneStrain>{data});
-  else if (options_.geometry == Geometry::Axisymmetric)
-    run(VolumeChanges<ElementType::Tri3, Geometry::Axisymmetric>{data});
-  else
-    run(VolumeChanges<ElementType::Tri3, Geometry::PlaneStrain>{data});
+  if (count_ > 0)
+    forSimplices<VolumeChanges>("coplane::element::volumeChanges", type_, kernelData(x, v, dt));
 }
 
 void ElementBlock::addNodalTension(const ConstNodeVectors& x, const ConstArray<Real>& nodalTension)
@@ -373,16 +377,16 @@ void ElementBlock::addNodalTension(const ConstNodeVectors& x, const ConstArray<R
     return;
   ElementKernelData data = kernelData(x, x, 0);
   data.nodalTension = nodalTension;
-  const auto run = [&](const auto& tension)
-  { parallelFor("coplane::element::nodalTension", data.batches, tension); };
-  if (type_ == ElementType::Tet4)
-    run(NodalTension<ElementType::Tet4, Geometry::PlaneStrain>{data});
-  else if (options_.geometry == Geometry::Axisymmetric)
-    run(NodalTension<ElementType::Tri3, Geometry::Axisymmetric>{data});
-  else
-    run(NodalTension<ElementType::Tri3, Geometry::PlaneStrain>{data});
+  forSimplices<NodalTension>("coplane::element::nodalTension", type_, data);
   for (const Eroded& eroded : eroded_)
     restore(eroded);
+}
+
+Real ElementBlock::workLeftToNodes(int element) const
+{
+  return options_.form == ElementForm::NodalPressure
+             ? 0.5 * arrays_.meanTension(0, element) * arrays_.volumeChanges(2, element)
+             : 0;
 }
 
 ElementKernelData ElementBlock::kernelData(const ConstNodeVectors& x, const ConstNodeVectors& v,

@@ -47,7 +47,7 @@ public:
   /// For ElementForm::NodalPressure, before update(): increments of volume over the step and
   /// volumes in its middle, whose sums around a node give its dilatation, sum / sum.
   void findVolumeChanges(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt);
-  /// Two rows, see there [m^3]; after update() the first one is the dilatation that it took [-].
+  /// Two rows, see there [m^3]; update() gives a third one, the dilatation that it took [-].
   ConstValues volumeChanges() const { return arrays_.volumeChanges; }
 
   /// Advances stress, history and energies over dt, and computes the forces, volumes and stable
@@ -64,8 +64,12 @@ public:
   /// those of nodes: sums around a node of meanTension() over those of volume().
   /// @param nodalTension per local node [Pa]
   void addNodalTension(const ConstNodeVectors& x, const ConstArray<Real>& nodalTension);
-  /// Mean stress and viscous pressure times the volume that the nodes give an element, a row [N m].
+  /// Mean stress beyond the initial one, less viscous pressure, times the volume that the nodes
+  /// give an element, a row [N m].
   ConstValues meanTension() const { return arrays_.meanTension; }
+  /// Work of that in half of the last step, which corner forces do not show before
+  /// addNodalTension(); 0 for other forms [J].
+  Real workLeftToNodes(int element) const;
 
   int count() const { return count_; }
   ElementType type() const { return type_; }

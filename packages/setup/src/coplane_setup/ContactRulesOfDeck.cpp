@@ -159,6 +159,7 @@ ContactRule ruleOf(const ContactCard& contact, const ContactPairCard& card, Cont
   rule.item = int(&card - contact.pairs.data());
   return rule;
 }
+
 /// Items all of whose faces wait for blocks that a stage adds find no partner at the start.
 void leaveOutItemsToCome(const std::vector<int>& absentBlocks, std::size_t blocks,
                          ContactRules& rules)

@@ -100,7 +100,9 @@ PotentialCycle<Dim, T>::stepBefore(const Plane& plane, int i) const
   const Real sliver = sliverOfFace > options_.areaMin ? sliverOfFace : options_.areaMin;
   if (!(before.overlap > sliver * (a.area < b.area ? a.area : b.area)))
     return Before::SharedNoArea;
-  return plane.history.bonded || before.mostClosure > 0 ? Before::Closed : Before::Open;
+  // Faces that only lie on each other have not been closed: what they close by next is theirs.
+  const Real roundOff = roundOffOfGap * lengthOfArea<Dim>(a.area < b.area ? a.area : b.area);
+  return plane.history.bonded || before.mostClosure > roundOff ? Before::Closed : Before::Open;
 }
 
 template <int Dim, class T>

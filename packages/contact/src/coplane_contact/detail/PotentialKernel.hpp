@@ -651,7 +651,7 @@ private:
     // Bonds that are open carry, too.
     const auto near =
         overlaps_ &&
-        (touching || -pair_.mostClosure <= ahead + 1e-8 * lengthOfArea<Dim>(overlap_)) &&
+        (touching || -pair_.mostClosure <= ahead + roundOffOfGap * lengthOfArea<Dim>(overlap_)) &&
         !(planes_.each([](const Plane& p) { return p.isRefused(); }) > 0.0);
     const T nodeArea = branchFree::anyOf(near) ? stiffArea(ahead) : T{};
     for (int i = 0; i < planes_.count; ++i)

@@ -64,8 +64,8 @@ KOKKOS_FORCEINLINE_FUNCTION void addTo(const ElementKernelData& data, ElementEne
   store(load(where) + amount, where);
 }
 
-/// Forces in the order of corners, from rows of lanes [N].
-template <class M>
+/// Forces in the order of corners, from rows of lanes; `adds`: to what is there [N].
+template <class M, bool adds = false>
 KOKKOS_FORCEINLINE_FUNCTION void storeForces(const ElementKernelData& data, int first,
                                              const Real (&force)[M::dimension][M::nodes][laneCount])
 {
@@ -74,21 +74,7 @@ KOKKOS_FORCEINLINE_FUNCTION void storeForces(const ElementKernelData& data, int 
     Real* const out = &data.cornerForce(first + lane, 0, 0);
     for (int c = 0; c < M::nodes; ++c)
       for (int i = 0; i < M::dimension; ++i)
-        out[3 * c + i] = force[i][c][lane];
-  }
-}
-
-/// The same, added to what is there.
-template <class M>
-KOKKOS_FORCEINLINE_FUNCTION void addForces(const ElementKernelData& data, int first,
-                                           const Real (&force)[M::dimension][M::nodes][laneCount])
-{
-  for (int lane = 0; lane < laneCount; ++lane)
-  {
-    Real* const out = &data.cornerForce(first + lane, 0, 0);
-    for (int c = 0; c < M::nodes; ++c)
-      for (int i = 0; i < M::dimension; ++i)
-        out[3 * c + i] += force[i][c][lane];
+        out[3 * c + i] = adds ? out[3 * c + i] + force[i][c][lane] : force[i][c][lane];
   }
 }
 

@@ -166,7 +166,7 @@ private:
     const Lanes reference = load(&data.referenceVolume(first));
     motion.volume = reference * point.halfVolumeRatio;
     motion.volumeChange = motion.volume * mean; // no difference of ratios near 1
-    store(mean, &data.volumeChanges(0, first));
+    store(mean, &data.volumeChanges(2, first));
   }
 
   /// Stress, history, hourglass forces and energies from n to n + 1, with the rates at n + 1/2.

@@ -1,4 +1,4 @@
-#include <coplane_dynamics/Extent.hpp>
+#include <coplane_dynamics/ModelExtent.hpp>
 
 #include <algorithm>
 #include <cmath>
