@@ -65,7 +65,8 @@ Overlap wholeOverlap(const HalfStepFace& a, const HalfStepFace& b, const Contact
     patch.centroid = (1 / pair.moments.area) * pair.moments.areaMoment;
     overlap.gap = -pair.moments.volume / pair.moments.area;
   }
-  pair.weightsAt(patch.centroid, patch.centroidWeights);
+  for (int f = 0; f < 2; ++f)
+    pair.weightsAt(f, patch.centroid, patch.centroidWeights[f]);
   overlap.even = !(pair.unevenGap(patch.centroid, overlap.uneven) >
                    roundOff * faceSize(std::min(a.area, b.area), Dim));
   return overlap;

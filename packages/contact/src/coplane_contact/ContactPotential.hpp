@@ -333,22 +333,19 @@ public:
   /// n . (mean normal of face f): what a face's normal has along the plane's.
   KOKKOS_INLINE_FUNCTION const T& kappa() const { return kappa_; }
 
-  /// Weights of the nodes of both faces that reproduce a place in the plane (evenWeights).
-  KOKKOS_INLINE_FUNCTION void weightsAt(const Vec2Of<T>& at, T (&weights)[2][4]) const
+  /// Weights of the nodes of a face that reproduce a place in the plane (evenWeights).
+  KOKKOS_INLINE_FUNCTION void weightsAt(int face, const Vec2Of<T>& at, T (&weights)[4]) const
   {
-    for (int f = 0; f < 2; ++f)
+    const ShadowOf<T>& s = shadow[face];
+    for (int i = 0; i < 4; ++i)
+      weights[i] = T(0.0);
+    if constexpr (Dim == 2)
     {
-      const ShadowOf<T>& s = shadow[f];
-      for (int i = 0; i < 4; ++i)
-        weights[f][i] = T(0.0);
-      if constexpr (Dim == 2)
-      {
-        weights[f][1] = (at.x - s.p[0].x) / (s.p[1].x - s.p[0].x);
-        weights[f][0] = 1.0 - weights[f][1];
-      }
-      else
-        evenWeights(s.p, s.count, at, weights[f]);
+      weights[1] = (at.x - s.p[0].x) / (s.p[1].x - s.p[0].x);
+      weights[0] = 1.0 - weights[1];
     }
+    else
+      evenWeights(s.p, s.count, at, weights);
   }
 
   KOKKOS_FORCEINLINE_FUNCTION T closureAt(const Vec2Of<T>& p) const

@@ -537,17 +537,17 @@ private:
       x = s.softening ? bond.inelasticJump(size, slope, s.friction * s.pressed, bond.cohesion,
                                            bond.shearingLength, s.wear)
                       : excess / slope;
-    Real lift = 0, sigma = s.pressed, mu = s.friction, held = s.held;
+    Real sigma = s.pressed, mu = s.friction, held = s.held;
     if (tangent > 0 && x > 0)
     {
       const Real room = dilationSlip - s.slip;
       if (strength == Strength::BartonBandis || !curve.straight())
         x = slipOnCurve(fit, s, tangent, room, x, state);
-      lift = tangent * (x < room ? x : room);
-      close(fit, s.closure + lift, state, response);
+      response.lift = tangent * (x < room ? x : room);
+      close(fit, s.closure + response.lift, state, response);
       sigma = response.normalTraction;
       mu = frictionAt(sigma, s.slip, s.speed);
-      response.dilation += lift;
+      response.dilation += response.lift;
     }
     if (s.softening)
     {
@@ -557,7 +557,8 @@ private:
     const Real most = std::fmin(held + mu * sigma, s.size);
     const Real work = slip(fit, s.before, s.trial, s.size, most, s.raised, state, response);
     // Raising the offset stores energy, which the slip pays for.
-    const Real paid = std::fmax(work - 0.5 * (s.pressed + sigma) * lift, 0.0);
+    const Real paid = std::fmax(work - 0.5 * (s.pressed + sigma) * response.lift, 0.0);
+    response.liftWork = work - paid;
     const Real fracture = s.softening && most > 0 ? paid * (held / most) : 0;
     response.fractureWork += fracture;
     response.frictionWork = paid - fracture;

@@ -68,6 +68,8 @@ struct JointResponse
   Real softened = 0;     ///< by how much crushing makes it more compliant [m/Pa]
   Real dilation = 0;     ///< by which the plane's offset rises in this step [m]; the tractions are
                          ///< those at the raised offset
+  Real lift = 0;         ///< what of that slip has lifted [m]
+  Real liftWork = 0;     ///< at the closure of this step; frictionWork is without it [J/m^2]
   bool crushedByShear = false; ///< and the maximum closure raised by it
 
   /// Work of closing that does not come back [J/m^2]: of crushing, what the mean of the
@@ -77,6 +79,14 @@ struct JointResponse
   {
     const Real from = before > 0 ? before : 0, to = normalTraction > 0 ? normalTraction : 0;
     return curveWork + 0.5 * ((from + to) * crushed + from * to * softened);
+  }
+
+  /// Work of slip that does not come back: less what lifts the faces against the mean of the normal
+  /// forces before and after the step [J].
+  /// @param area in contact [m^2]; before: normal force before the step [N]
+  KOKKOS_INLINE_FUNCTION Real workOfSlip(Real area, Real before) const
+  {
+    return area * (frictionWork + liftWork) - 0.5 * (before + area * normalTraction) * lift;
   }
 };
 } // namespace coplane

@@ -117,6 +117,7 @@ private:
     PerLane slopes = {};    ///< of bonds that resist bending, where they are open [Pa/m]
     PerLane sheared = {};   ///< what shear has crushed of a joint that may be so unevenly [m]
     PerLane parted = {};    ///< what of that did not close it [m]
+    PerLane lifts = {}; ///< by which slip has lifted what is not bonded nor crushed unevenly [m]
   };
 
   /// The kernel is linear: a closure curve is its tangent at the largest closure so far, at which
@@ -362,6 +363,8 @@ private:
         planes_.plane[0]->hysteresisWork += unevenly().lost(crushed, density, pressed);
     }
 
+    lift(response.lifts, pressed, density);
+
     // A bond pulls evenly, by the mean closure, or by the closure at each point.
     const T mean = m.volume / m.area;
     const T sigma = all(response.tractions), perArea = all(response.stored);
@@ -390,6 +393,22 @@ private:
         plane.pointOfContact = branchFree::lane(point, i);
         plane.stored = branchFree::lane(normalEnergy, i) + plane.shearEnergy();
       }
+  }
+
+  /// Faces that slip lifts press as they lie then, so that friction and pressure are of one time.
+  KOKKOS_FORCEINLINE_FUNCTION void lift(const PerLane& lifts, T& pressed, EnergyDensity<T>& density)
+  {
+    bool any = false;
+    for (int i = 0; i < planes_.count; ++i)
+      any = any || lifts[i] > 0;
+    if (!any)
+      return;
+    findClosure();
+    pressed = pair_.press(slope_, branchFree::choose(bonded_, T(0.0), hardening_), density);
+    growFromBirth();
+    for (int i = 0; i < planes_.count; ++i)
+      if (lifts[i] > 0)
+        planes_.plane[i]->closure += lifts[i];
   }
 
   /// Of what has not been born yet the faces have not grown.
@@ -424,7 +443,8 @@ private:
     const Vec2Of<T> at =
         coplane::choose(bonded_, (1.0 / m.area) * m.areaMoment, (1.0 / m.volume) * m.volumeMoment);
     Relative r;
-    pair_.weightsAt(at, r.weights);
+    for (int f = 0; f < 2; ++f)
+      pair_.weightsAt(f, at, r.weights[f]);
     r.apart = T{};
     for (int i = 0; i < b_.count; ++i)
       r.apart += r.weights[1][i] * pair_.shadow[1].height[i];
@@ -434,8 +454,51 @@ private:
     const Vec3Of<T> drift =
         weighted(r.weights[1], b_.v, b_.count) - weighted(r.weights[0], a_.v, a_.count);
     r.closing = -dot(n, drift);
-    r.sliding = drift + r.closing * n - r.apart * pair_.normalRate();
+    r.sliding = slidingInStep(at, drift, r);
     return r;
+  }
+
+  /// How the faces slide in the middle of the step, whose velocities these are: there they are half
+  /// a step less near, the plane is half a step less turned, which counts alike, and what has
+  /// carried friction before has done so at the centre of pressure of then.
+  /// @param at centre of pressure now; drift: velocity of b against a there [m/s]
+  KOKKOS_FORCEINLINE_FUNCTION Vec3Of<T> slidingInStep(const Vec2Of<T>& at, const Vec3Of<T>& drift,
+                                                      const Relative& now) const
+  {
+    using branchFree::choose;
+    const auto& plane = pair_.plane;
+    Vec3Of<T> along = drift + now.closing * plane.normal;
+    Vec3Of<T> turning = pair_.normalRate();
+    const Mask held = planes_.each(
+                          [](const Plane& p)
+                          {
+                            const Vec3& tau = p.history.shearTraction;
+                            return p.area > 0 ? dot(tau, tau) : Real(0);
+                          }) > 0.0;
+    if (branchFree::anyOf(held))
+    {
+      const Vec3Of<T> place =
+          planes_.eachVector([](const Plane& p) { return p.pointOfContact; }) - plane.point;
+      const T half = choose(held, T(0.5), T(0.0));
+      Vec3Of<T> velocities[2];
+      for (int f = 0; f < 2; ++f)
+      {
+        const HalfStepFaceOf<T>& face = f == 0 ? a_ : b_;
+        const Vec3Of<T> before = place + dt_ * weighted(now.weights[f], face.v, face.count);
+        const Vec2Of<T> then{dot(plane.e1, before), Dim == 2 ? T(0.0) : dot(plane.e2, before)};
+        T weights[4];
+        pair_.weightsAt(f, at + half * (then - at), weights);
+        velocities[f] = weighted(weights, face.v, face.count);
+      }
+      along = velocities[1] - velocities[0];
+      along = along - dot(plane.normal, along) * plane.normal;
+      const Vec3Of<T> turned =
+          plane.normal - planes_.eachVector([](const Plane& p) { return p.normal; });
+      turning.x = choose(held, turned.x / dt_, turning.x);
+      turning.y = choose(held, turned.y / dt_, turning.y);
+      turning.z = choose(held, turned.z / dt_, turning.z);
+    }
+    return along - (now.apart + dt_ * now.closing) * turning;
   }
 
   /// The shear state is traction times the root of the area, so that its energy does not hang on
@@ -516,6 +579,9 @@ private:
         crushByShear(plane, pair, response, dt_ * closing);
     }
     plane.history = state;
+    if (!wasBonded && !crushes_[i])
+      out.lifts[i] = response.lift;
+    plane.frictionWork += response.workOfSlip(area, plane.area * plane.normalTraction);
     out.tractions[i] = response.normalTraction;
     out.stored[i] =
         wasBonded ? law.storedNormally(plane.fit, plane.closure + response.dilation, plane.history)
@@ -526,7 +592,6 @@ private:
                   : response.slipping                                   ? PlaneState::Slip
                                                                         : PlaneState::Stick;
     plane.offset += response.dilation;
-    plane.frictionWork += area * response.frictionWork;
     plane.fractureWork += area * response.fractureWork;
     if (wasBonded && !plane.history.bonded && !bends)
       plane.offset -= settlement<Dim>(plane, law, a_, b_, i, options_, out.stored[i] * wholeArea);
