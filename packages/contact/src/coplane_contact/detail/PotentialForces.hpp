@@ -1,0 +1,288 @@
+#pragma once
+
+#include <coplane_contact/detail/PotentialKernel.hpp>
+
+// Steps G and H of PotentialCycle: how the faces move, what the law of their joint makes of it, and
+// the forces (docs/theory/contact-potential.md, "Laws").
+
+namespace coplane::detail
+{
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::lift(const PerLane& lifts, T& pressed,
+                                                              EnergyDensity<T>& density)
+{
+  bool any = false;
+  for (int i = 0; i < planes_.count; ++i)
+    any = any || lifts[i] > 0;
+  if (!any)
+    return;
+  findClosure();
+  pressed = pair_.press(slope_, branchFree::choose(bonded_, T(0.0), hardening_), density);
+  growFromBirth();
+  for (int i = 0; i < planes_.count; ++i)
+    if (lifts[i] > 0)
+      planes_.plane[i]->closure += lifts[i];
+}
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION typename PotentialCycle<Dim, T>::Relative
+PotentialCycle<Dim, T>::stepG_motion() const
+{
+  const ContactMoments<T>& m = pair_.moments;
+  const Vec3Of<T>& n = pair_.plane.normal;
+  const Vec2Of<T> at =
+      coplane::choose(bonded_, (1.0 / m.area) * m.areaMoment, (1.0 / m.volume) * m.volumeMoment);
+  Relative r;
+  for (int f = 0; f < 2; ++f)
+    pair_.weightsAt(f, at, r.weights[f]);
+  r.apart = T{};
+  for (int i = 0; i < b_.count; ++i)
+    r.apart += r.weights[1][i] * pair_.shadow[1].height[i];
+  for (int i = 0; i < a_.count; ++i)
+    r.apart -= r.weights[0][i] * pair_.shadow[0].height[i];
+  r.gap = pair_.overLayers(r.apart, at);
+  const Vec3Of<T> drift =
+      weighted(r.weights[1], b_.v, b_.count) - weighted(r.weights[0], a_.v, a_.count);
+  r.closing = -dot(n, drift);
+  r.sliding = slidingInStep(at, drift, r);
+  return r;
+}
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION Vec3Of<T>
+PotentialCycle<Dim, T>::slidingInStep(const Vec2Of<T>& at, const Vec3Of<T>& drift,
+                                      const Relative& now) const
+{
+  using branchFree::choose;
+  const auto& plane = pair_.plane;
+  Vec3Of<T> along = drift + now.closing * plane.normal;
+  Vec3Of<T> turning = pair_.normalRate();
+  const Mask held = planes_.each(
+                        [](const Plane& p)
+                        {
+                          const Vec3& tau = p.history.shearTraction;
+                          return p.area > 0 ? dot(tau, tau) : Real(0);
+                        }) > 0.0;
+  if (dt_ > 0 && branchFree::anyOf(held)) // not where a run begins
+  {
+    const Vec3Of<T> place =
+        planes_.eachVector([](const Plane& p) { return p.pointOfContact; }) - plane.point;
+    const T half = choose(held, T(0.5), T(0.0));
+    Vec3Of<T> velocities[2];
+    for (int f = 0; f < 2; ++f)
+    {
+      const HalfStepFaceOf<T>& face = f == 0 ? a_ : b_;
+      const Vec3Of<T> before = place + dt_ * weighted(now.weights[f], face.v, face.count);
+      const Vec2Of<T> then{dot(plane.e1, before), Dim == 2 ? T(0.0) : dot(plane.e2, before)};
+      T weights[4];
+      pair_.weightsAt(f, at + half * (then - at), weights);
+      velocities[f] = weighted(weights, face.v, face.count);
+    }
+    along = velocities[1] - velocities[0];
+    along = along - dot(plane.normal, along) * plane.normal;
+    const Vec3Of<T> turned =
+        plane.normal - planes_.eachVector([](const Plane& p) { return p.normal; });
+    turning.x = choose(held, turned.x / dt_, turning.x);
+    turning.y = choose(held, turned.y / dt_, turning.y);
+    turning.z = choose(held, turned.z / dt_, turning.z);
+  }
+  return along - (now.apart + dt_ * now.closing) * turning;
+}
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION Vec3Of<T> PotentialCycle<Dim, T>::shearAfter(const T& newArea,
+                                                                         const Relative& relative,
+                                                                         Vec3Of<T>& increment) const
+{
+  using branchFree::choose;
+  const Vec3Of<T>& n = pair_.plane.normal;
+  const T oldArea = planes_.each([](const Plane& p) { return p.area; });
+  const T rootNew = branchFree::squareRoot(newArea);
+  const T rootOld = choose(oldArea > 0.0, branchFree::squareRoot(oldArea), rootNew);
+  const T perRoot = choose(newArea > 0.0, 1.0 / rootNew, T(0.0));
+  const T spin = 0.5 * (spinAbout(n, a_) + spinAbout(n, b_));
+  increment = (0.5 * dt_ * (rootOld + rootNew) * perRoot) * relative.sliding;
+  return (rootOld * perRoot) *
+         turnIntoPlane(planes_.eachVector([](const Plane& p) { return p.history.shearTraction; }),
+                       planes_.eachVector([](const Plane& p) { return p.normal; }), n, spin * n,
+                       dt_);
+}
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION void
+PotentialCycle<Dim, T>::stepH_law(Plane& plane, int i, Real area, Real energyShare, Real loaded,
+                                  const Vec3& tau, const Vec3& increment, Real closing,
+                                  Response& out) const
+{
+  const JointLaw& law = *planes_.law[i];
+  const ContactMoments<T>& m = pair_.moments;
+  const Real wholeArea = branchFree::lane(m.area, i);
+  const bool wasBonded = plane.history.bonded;
+  plane.normal = branchFree::lane(pair_.plane.normal, i);
+  plane.closure = permanents_[i] + branchFree::lane(m.volume / m.area, i);
+  plane.tooDeep = plane.isTooDeep();
+  if (!(area > 0) && plane.area > 0)
+    plane.frictionWork += plane.shearEnergy();
+  plane.history.shearTraction = tau;
+
+  const Real opposedness = branchFree::lane(pair_.opposedness, i);
+  JointState state = plane.history;
+  if (reached_[i] > 0)
+    state.maximumClosure = reached_[i];
+  // Where a way out is open sideways the area stands for what is left of the pressure.
+  Real closed = wasBonded  ? plane.closure
+                : area > 0 ? permanents_[i] + loaded * opposedness / (slopes_[i] * area)
+                           : permanents_[i];
+  Real crushing = permanents_[i];
+  if (plane.crushedUnevenly && crushes_[i])
+  {
+    // The law sees an even crushing that bears the mean of the compression.
+    const Real compression = slopes_[i] * (closed - permanents_[i]);
+    crushing = law.curve.crushing.crushedUpTo(compression, permanents_[i]);
+    state.maximumClosure = law.curve.crushing.closureOf(crushing, slopes_[i]);
+    closed = crushing + compression / slopes_[i];
+    closed = closed < state.maximumClosure ? closed : state.maximumClosure;
+  }
+  if (area > 0 && !(plane.area > 0) && plane.isInherited())
+    state.shearTraction = heldAt(law, plane.fit, closed, state);
+  const Real shrunk = area > 0 && plane.area > 0 ? std::sqrt(plane.area / area) : 1;
+  const bool bends = branchFree::lane(bends_, i);
+  const JointResponse response =
+      law(plane.fit, closed, increment, dt_, state, shrunk, bends ? &bent_.lanes[i] : nullptr);
+  out.slopes[i] = bends && bent_.lanes[i].opened > 0 ? response.bondStiffness : slopes_[i];
+  if (wasBonded)
+    plane.hysteresisWork += area * response.hysteresisWork(plane.normalTraction);
+  else if (crushes_[i])
+    keepCrushing(plane, i, crushing, response, state, out);
+  else if (!law.curve.straight())
+  {
+    const ClosedPair pair = closedPair(i, energyShare);
+    loadCurve(plane, law, pair, response, reached_[i], state);
+    if (law.curve.crushing.acts())
+      crushByShear(plane, pair, response, dt_ * closing);
+  }
+  plane.history = state;
+  if (!wasBonded && !crushes_[i])
+    out.lifts[i] = response.lift;
+  plane.frictionWork += response.workOfSlip(area, plane.area * plane.normalTraction);
+  out.tractions[i] = response.normalTraction;
+  out.stored[i] =
+      wasBonded ? law.storedNormally(plane.fit, plane.closure + response.dilation, plane.history)
+                : 0;
+  plane.area = area;
+  plane.normalTraction = response.normalTraction;
+  plane.state = !plane.history.bonded && response.normalTraction <= 0 ? PlaneState::Open
+                : response.slipping                                   ? PlaneState::Slip
+                                                                      : PlaneState::Stick;
+  plane.offset += response.dilation;
+  plane.fractureWork += area * response.fractureWork;
+  if (wasBonded && !plane.history.bonded && !bends)
+    plane.offset -= settlement<Dim>(plane, law, a_, b_, i, options_, out.stored[i] * wholeArea);
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION Vec3 PotentialCycle<Dim, T>::heldAt(const JointLaw& law, const JointFit& fit,
+                                                           Real closed, JointState state)
+{
+  const bool bonded = state.bonded;
+  law(fit, closed, Vec3{}, 0, state);
+  return state.bonded == bonded ? state.shearTraction : Vec3{};
+}
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION void
+PotentialCycle<Dim, T>::keepCrushing(const Plane& plane, int i, Real crushing,
+                                     const JointResponse& response, JointState& state,
+                                     Response& out) const
+{
+  Real reached = mostWithoutCrushing(i);
+  if (response.crushedByShear)
+  {
+    reached = state.maximumClosure;
+    out.sheared[i] = planes_.law[i]->curve.crushing.crushedAt(reached, slopes_[i]) - crushing;
+    out.parted[i] = out.sheared[i] - response.crushed;
+  }
+  else if (!plane.crushedUnevenly)
+  {
+    // Short of what would crush it, whatever round-off does.
+    const Real closed = permanents_[i] + branchFree::lane(pair_.moments.squares, i) /
+                                             branchFree::lane(pair_.moments.volume, i);
+    reached *= 1 - 1e-9;
+    reached = closed < reached ? closed : reached;
+  }
+  state.maximumClosure =
+      plane.history.maximumClosure > reached ? plane.history.maximumClosure : reached;
+}
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION ClosedPair PotentialCycle<Dim, T>::closedPair(int i,
+                                                                          Real energyShare) const
+{
+  using branchFree::lane;
+  const ContactMoments<T>& m = pair_.moments;
+  return {lane(m.area, i), lane(m.volume, i), lane(m.squares, i), lane(pair_.rising(), i),
+          energyShare,     permanents_[i],    slopes_[i]};
+}
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION void
+PotentialCycle<Dim, T>::stepH_forces(const Mask& touching, const T& area, const T& normalForce,
+                                     const Relative& relative)
+{
+  const auto& weights = relative.weights;
+  Vec3Of<T> tangential =
+      area * planes_.eachVector([](const Plane& p) { return p.history.shearTraction; });
+  T normalDamping{};
+  if (options_.dampNormal > 0 || options_.dampShear > 0)
+    tangential += damp(touching, area, normalForce, relative, normalDamping);
+  for (int i = 0; i < planes_.count; ++i)
+    if (branchFree::lane(touching, i))
+      planes_.plane[i]->normalDamping = float(branchFree::lane(normalDamping, i));
+  const Vec3Of<T> lever = (0.5 / pair_.kappa() * relative.apart) * tangential;
+  pair_.addThroughNormal(0, lever);
+  pair_.addThroughNormal(1, -lever);
+  const Vec3Of<T> carried = tangential + normalDamping * pair_.plane.normal;
+  Vec3Of<T> nodal[2][4];
+  for (int i = 0; i < a_.count; ++i)
+    nodal[0][i] = -pair_.gradient[0][i] - weights[0][i] * carried;
+  for (int i = 0; i < b_.count; ++i)
+    nodal[1][i] = weights[1][i] * carried - pair_.gradient[1][i];
+  if (const Mask& none = pair_.hasNothing(); branchFree::anyOf(none))
+    for (auto& ofFace : nodal) // zeros of one sign, whoever shares the lanes
+      for (Vec3Of<T>& force : ofFace)
+        for (T* const part : {&force.x, &force.y, &force.z})
+          *part = branchFree::choose(none, T(0.0), *part);
+  putForces(planes_, touching, nodal, a_, b_, dt_);
+}
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION Vec3Of<T>
+PotentialCycle<Dim, T>::damp(const Mask& touching, const T& area, const T& normalForce,
+                             const Relative& relative, T& normalDamping) const
+{
+  using branchFree::choose;
+  // The stiffnesses are those of areas of the material, the masses those of areas now, of rings
+  // per metre of the hoop as it was at the start.
+  const T grown = 1.0 / pair_.materialArea;
+  const T stiffness = grown * slope_;
+  normalDamping = area * dashpotPerArea(options_.dampNormal, stiffness, a_, b_) * relative.closing;
+  normalDamping = choose(!bonded_ && normalDamping < -normalForce, -normalForce,
+                         normalDamping); // no tension
+  const auto sticks =
+      planes_.each([](const Plane& p) { return p.state == PlaneState::Stick; }) > 0.0;
+  const T shearStiffness =
+      grown * planes_.each([](const Plane& p) { return p.fit.shearStiffness; });
+  const Vec3Of<T> damping = heldByFriction(
+      planes_, normalForce,
+      choose(sticks, -area * dashpotPerArea(options_.dampShear, shearStiffness, a_, b_), T(0.0)) *
+          relative.sliding);
+  // Along the normal, which bodies strike, by the trapezoid rule, as all work of nodes.
+  const T before = planes_.each([](const Plane& p) { return p.normalDamping; });
+  const T work =
+      dt_ * (dot(damping, relative.sliding) - 0.5 * (before + normalDamping) * relative.closing);
+  for (int i = 0; i < planes_.count; ++i)
+    if (branchFree::lane(touching, i))
+      planes_.plane[i]->dampingWork -= branchFree::lane(work, i);
+  return damping;
+}
+} // namespace coplane::detail
