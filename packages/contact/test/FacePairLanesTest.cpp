@@ -110,9 +110,9 @@ struct PairTable
   }
 };
 
-/// The third is a bond that resists bending and breaks here and there, the last five are crushed:
-/// by compression, by shear more than by that, with dilation, and the first two with loss of
-/// stiffness.
+/// The third is a bond that resists bending and breaks here and there, then come five that are
+/// crushed: by compression, by shear more than by that, with dilation, and the first two with loss
+/// of stiffness. The last three dilate: dry, bonded, and brittle.
 std::vector<JointLaw> someLaws()
 {
   JointLaw law;
@@ -137,7 +137,16 @@ std::vector<JointLaw> someLaws()
   lifted.dilation = .1;
   JointLaw softened = crushed, softenedByShear = sheared;
   softened.curve.crushing.loss = softenedByShear.curve.crushing.loss = .5;
-  return {law, other, bent, crushed, sheared, lifted, softened, softenedByShear};
+  JointLaw dilating;
+  dilating.friction = .5;
+  dilating.dilation = .2;
+  JointLaw bonded = dilating, brittle = dilating;
+  bonded.bond = Bond::softening(Bond::Kind::Linear, .02, .02, .3, .3);
+  brittle.bond.kind = Bond::Kind::Brittle;
+  brittle.bond.tensileStrength = .01;
+  brittle.cohesion = .01;
+  return {law,      other,           bent,     crushed, sheared, lifted,
+          softened, softenedByShear, dilating, bonded,  brittle};
 }
 
 ContactOptions damped(ContactOptions o)

@@ -140,7 +140,7 @@ KOKKOS_FORCEINLINE_FUNCTION JointResponse stepH_law(Plane& plane, const JointLaw
   plane.tooDeep = plane.isTooDeep();
   const JointResponse response = law(plane.fit, plane.limitedClosure(), sliding, dt, plane.history);
   plane.hysteresisWork += plane.area * response.hysteresisWork(plane.normalTraction);
-  plane.frictionWork += response.workOfSlip(plane.area, plane.area * plane.normalTraction);
+  plane.frictionWork += plane.area * response.workOfSlip(plane.normalTraction);
   plane.normalTraction = response.normalTraction;
   plane.state = !plane.history.bonded && response.normalTraction <= 0 ? PlaneState::Open
                 : response.slipping                                   ? PlaneState::Slip

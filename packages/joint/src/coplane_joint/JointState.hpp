@@ -69,7 +69,7 @@ struct JointResponse
   Real dilation = 0;     ///< by which the plane's offset rises in this step [m]; the tractions are
                          ///< those at the raised offset
   Real lift = 0;         ///< what of that slip has lifted [m]
-  Real liftWork = 0;     ///< at the closure of this step; frictionWork is without it [J/m^2]
+  Real liftWork = 0;     ///< what frictionWork is without, for the lift at this closure [J/m^2]
   bool crushedByShear = false; ///< and the maximum closure raised by it
 
   /// Work of closing that does not come back [J/m^2]: of crushing, what the mean of the
@@ -81,12 +81,12 @@ struct JointResponse
     return curveWork + 0.5 * ((from + to) * crushed + from * to * softened);
   }
 
-  /// Work of slip that does not come back: less what lifts the faces against the mean of the normal
-  /// forces before and after the step [J].
-  /// @param area in contact [m^2]; before: normal force before the step [N]
-  KOKKOS_INLINE_FUNCTION Real workOfSlip(Real area, Real before) const
+  /// Work of slip that does not come back: less what lifts the faces against the mean of the
+  /// tractions before and after the step, for a lift that presses within it [J/m^2].
+  /// @param before normal traction before the step [Pa]
+  KOKKOS_INLINE_FUNCTION Real workOfSlip(Real before) const
   {
-    return area * (frictionWork + liftWork) - 0.5 * (before + area * normalTraction) * lift;
+    return frictionWork + liftWork - 0.5 * (before + normalTraction) * lift;
   }
 };
 } // namespace coplane

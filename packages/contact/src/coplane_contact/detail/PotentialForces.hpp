@@ -8,7 +8,7 @@
 namespace coplane::detail
 {
 template <int Dim, class T>
-KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::lift(const PerLane& lifts, T& pressed,
+KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::lift(PerLane& lifts, T& pressed,
                                                               EnergyDensity<T>& density)
 {
   bool any = false;
@@ -16,12 +16,39 @@ KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::lift(const PerLane& lif
     any = any || lifts[i] > 0;
   if (!any)
     return;
-  findClosure();
+  const auto meetLifted = [&] { pair_.meet(offset_ + all(lifts), bonded_, edgesOf(planes_)); };
+  meetLifted();
+  // Strips are left to T = Real, for which it is too late now.
+  const Mask stays = pair_.regular && !pair_.isStrip();
+  bool again = false;
+  for (int i = 0; i < planes_.count; ++i)
+    if (lifts[i] > 0 && !branchFree::lane(stays, i))
+    {
+      lifts[i] = 0;
+      again = true;
+    }
+  if (again)
+    meetLifted();
+  deepest_ = deepest_ + all(lifts);
   pressed = pair_.press(slope_, branchFree::choose(bonded_, T(0.0), hardening_), density);
   growFromBirth();
+}
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::payLifts(const Response& response,
+                                                                  const T& area,
+                                                                  const T& normalForce) const
+{
   for (int i = 0; i < planes_.count; ++i)
-    if (lifts[i] > 0)
-      planes_.plane[i]->closure += lifts[i];
+    if (response.lifts[i] > 0)
+    {
+      Plane& plane = *planes_.plane[i];
+      const Real now = branchFree::lane(normalForce, i);
+      plane.closure += response.lifts[i];
+      plane.normalTraction = now / branchFree::lane(area, i);
+      plane.frictionWork +=
+          response.liftWork[i] - 0.5 * (response.before[i] + now) * response.lifts[i];
+    }
 }
 
 template <int Dim, class T>
@@ -35,11 +62,7 @@ PotentialCycle<Dim, T>::stepG_motion() const
   Relative r;
   for (int f = 0; f < 2; ++f)
     pair_.weightsAt(f, at, r.weights[f]);
-  r.apart = T{};
-  for (int i = 0; i < b_.count; ++i)
-    r.apart += r.weights[1][i] * pair_.shadow[1].height[i];
-  for (int i = 0; i < a_.count; ++i)
-    r.apart -= r.weights[0][i] * pair_.shadow[0].height[i];
+  r.apart = apartAt(r.weights);
   r.gap = pair_.overLayers(r.apart, at);
   const Vec3Of<T> drift =
       weighted(r.weights[1], b_.v, b_.count) - weighted(r.weights[0], a_.v, a_.count);
@@ -57,6 +80,7 @@ PotentialCycle<Dim, T>::slidingInStep(const Vec2Of<T>& at, const Vec3Of<T>& drif
   const auto& plane = pair_.plane;
   Vec3Of<T> along = drift + now.closing * plane.normal;
   Vec3Of<T> turning = pair_.normalRate();
+  T apart = now.apart;
   const Mask held = planes_.each(
                         [](const Plane& p)
                         {
@@ -65,28 +89,41 @@ PotentialCycle<Dim, T>::slidingInStep(const Vec2Of<T>& at, const Vec3Of<T>& drif
                         }) > 0.0;
   if (dt_ > 0 && branchFree::anyOf(held)) // not where a run begins
   {
-    const Vec3Of<T> place =
-        planes_.eachVector([](const Plane& p) { return p.pointOfContact; }) - plane.point;
     const T half = choose(held, T(0.5), T(0.0));
-    Vec3Of<T> velocities[2];
+    const Vec3Of<T> normalThen = planes_.eachVector([](const Plane& p) { return p.normal; });
+    const Vec3Of<T> offPoint = (0.5 * (now.apart + dt_ * now.closing)) * normalThen;
+    const Vec3Of<T> point =
+        planes_.eachVector([](const Plane& p) { return p.pointOfContact; }) - plane.point;
+    T weights[2][4];
     for (int f = 0; f < 2; ++f)
     {
       const HalfStepFaceOf<T>& face = f == 0 ? a_ : b_;
-      const Vec3Of<T> before = place + dt_ * weighted(now.weights[f], face.v, face.count);
-      const Vec2Of<T> then{dot(plane.e1, before), Dim == 2 ? T(0.0) : dot(plane.e2, before)};
-      T weights[4];
-      pair_.weightsAt(f, at + half * (then - at), weights);
-      velocities[f] = weighted(weights, face.v, face.count);
+      const Vec3Of<T> then = (f == 0 ? point - offPoint : point + offPoint) +
+                             dt_ * weighted(now.weights[f], face.v, face.count);
+      const Vec2Of<T> thenAt{dot(plane.e1, then), Dim == 2 ? T(0.0) : dot(plane.e2, then)};
+      pair_.weightsAt(f, at + half * (thenAt - at), weights[f]);
     }
-    along = velocities[1] - velocities[0];
+    apart = apartAt(weights) + choose(held, dt_ * now.closing, T(0.0));
+    along = weighted(weights[1], b_.v, b_.count) - weighted(weights[0], a_.v, a_.count);
     along = along - dot(plane.normal, along) * plane.normal;
-    const Vec3Of<T> turned =
-        plane.normal - planes_.eachVector([](const Plane& p) { return p.normal; });
+    Vec3Of<T> turned = plane.normal - normalThen;
+    turned = turned - dot(plane.normal, turned) * plane.normal;
     turning.x = choose(held, turned.x / dt_, turning.x);
     turning.y = choose(held, turned.y / dt_, turning.y);
     turning.z = choose(held, turned.z / dt_, turning.z);
   }
-  return along - (now.apart + dt_ * now.closing) * turning;
+  return along - apart * turning;
+}
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION T PotentialCycle<Dim, T>::apartAt(const T (&weights)[2][4]) const
+{
+  T apart{};
+  for (int i = 0; i < b_.count; ++i)
+    apart += weights[1][i] * pair_.shadow[1].height[i];
+  for (int i = 0; i < a_.count; ++i)
+    apart -= weights[0][i] * pair_.shadow[0].height[i];
+  return apart;
 }
 
 template <int Dim, class T>
@@ -162,9 +199,13 @@ PotentialCycle<Dim, T>::stepH_law(Plane& plane, int i, Real area, Real energySha
       crushByShear(plane, pair, response, dt_ * closing);
   }
   plane.history = state;
-  if (!wasBonded && !crushes_[i])
+  if (!wasBonded && !law.curve.crushing.acts())
+  {
     out.lifts[i] = response.lift;
-  plane.frictionWork += response.workOfSlip(area, plane.area * plane.normalTraction);
+    out.liftWork[i] = area * response.liftWork;
+    out.before[i] = plane.area * plane.normalTraction;
+  }
+  plane.frictionWork += area * response.frictionWork;
   out.tractions[i] = response.normalTraction;
   out.stored[i] =
       wasBonded ? law.storedNormally(plane.fit, plane.closure + response.dilation, plane.history)

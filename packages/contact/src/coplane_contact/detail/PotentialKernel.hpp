@@ -117,7 +117,9 @@ private:
     PerLane slopes = {};    ///< of bonds that resist bending, where they are open [Pa/m]
     PerLane sheared = {};   ///< what shear has crushed of a joint that may be so unevenly [m]
     PerLane parted = {};    ///< what of that did not close it [m]
-    PerLane lifts = {}; ///< by which slip has lifted what is not bonded nor crushed unevenly [m]
+    PerLane lifts = {};     ///< by which slip lifts the faces in this cycle [m]
+    PerLane liftWork = {};  ///< what the law has taken for that of the work of slip [J]
+    PerLane before = {};    ///< normal forces before the step [N]
   };
 
   /// The kernel is linear: a closure curve is its tangent at the largest closure so far, at which
@@ -213,8 +215,8 @@ private:
   }
   KOKKOS_FORCEINLINE_FUNCTION void findClosure()
   {
-    const T offset = planes_.each([](const Plane& p) { return p.offset; });
-    pair_.meet(offset - all(permanents_), bonded_, edgesOf(planes_));
+    offset_ = planes_.each([](const Plane& p) { return p.offset; }) - all(permanents_);
+    pair_.meet(offset_, bonded_, edgesOf(planes_));
   }
 
   /// Closure of a curve, or of a joint that is crushed evenly, where it is more than ever [m]; else
@@ -382,6 +384,7 @@ private:
       if (bent_.partly && touching)
         addClosedPart(pair_, *planes_.plane[0], slope_ - response.slopes[0], normalForce,
                       normalEnergy);
+    payLifts(response, area, normalForce);
     stepH_forces(touching, area, normalForce, relative);
 
     const Vec3Of<T> point = 0.5 * (weighted(relative.weights[0], a_.x, a_.count) +
@@ -396,8 +399,11 @@ private:
   }
 
   /// Faces that slip lifts press as they lie then, so that friction and pressure are of one time.
-  KOKKOS_FORCEINLINE_FUNCTION void lift(const PerLane& lifts, T& pressed,
-                                        EnergyDensity<T>& density);
+  /// @param lifts gets 0 for those that would be strips, which are lifted after the cycle
+  KOKKOS_FORCEINLINE_FUNCTION void lift(PerLane& lifts, T& pressed, EnergyDensity<T>& density);
+  /// What lifts the faces against the mean of the normal forces before and after is no friction.
+  KOKKOS_FORCEINLINE_FUNCTION void payLifts(const Response& response, const T& area,
+                                            const T& normalForce) const;
 
   /// Of what has not been born yet the faces have not grown.
   KOKKOS_FORCEINLINE_FUNCTION void growFromBirth() const
@@ -426,9 +432,11 @@ private:
 
   KOKKOS_FORCEINLINE_FUNCTION Relative stepG_motion() const;
 
-  /// How the faces slide in the middle of the step, whose velocities these are: there they are half
-  /// a step less near, the plane is half a step less turned, which counts alike, and what has
-  /// carried friction before has done so at the centre of pressure of then.
+  /// Distance of the faces along the normal between places with these weights [m].
+  KOKKOS_FORCEINLINE_FUNCTION T apartAt(const T (&weights)[2][4]) const;
+  /// How the faces slide in the middle of the step, whose velocities these are. What has carried
+  /// shear before did so a step ago less near, in a plane that was less turned, which counts alike,
+  /// and at the centre of pressure of then.
   /// @param at centre of pressure now; drift: velocity of b against a there [m/s]
   KOKKOS_FORCEINLINE_FUNCTION Vec3Of<T> slidingInStep(const Vec2Of<T>& at, const Vec3Of<T>& drift,
                                                       const Relative& now) const;
@@ -512,6 +520,7 @@ private:
   Mask bonded_, done_;
   Mask bends_;                             ///< bonds that resist bending
   BentBonds<T> bent_;                      ///< how these are bent
+  T offset_;                               ///< beyond what is closed for good [m]
   T laid_[2][3];                           ///< as Plane::laid, where some have it [m]
   T overlap_;                              ///< of the shadows, per depth [m^2]
   Mask overlaps_;                          ///< whether that is enough to count
