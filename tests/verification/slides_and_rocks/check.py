@@ -53,6 +53,7 @@ for law, dimension, dilation in itertools.product(LAWS, (2, 3), (0, 0.3)):
         left.append(run.history["contact_remainder"][-1] / run.history["kinetic"][0])
         if law == "table" and dilation and factor == 0.8:
             case.same_bits(f"thrown_{law}_{dimension}_{dilation}_{factor}", recipe, deck, run, ranks=2, threads=2)
-    case.check_equal(f"{name}: friction is a good part of the energy", bool(run.history["contact_friction"][-1] > 0.2 * run.history["kinetic"][0]), True)
+    if law != "barton_bandis":  # whose strength is one of SI units
+        case.check_equal(f"{name}: friction is a good part of the energy", bool(run.history["contact_friction"][-1] > 0.2 * run.history["kinetic"][0]), True)
     case.check(f"{name}: contact remainder over the first energy", left[0], 0, 3e-3)
     case.check(f"{name}: the same with a fourth of the step", left[1], 0, 1.2e-4)
