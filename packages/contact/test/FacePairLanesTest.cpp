@@ -20,6 +20,7 @@ namespace
 using namespace facepairs;
 
 constexpr Real dt = 1e-3;
+constexpr std::size_t lawsInUse = 11; ///< of someLaws()
 
 /// Pairs of all kinds: triangles and quadrilaterals, plane and warped and folded, or segments,
 /// apart, touching, aligned to the last bit, new, old, bonded, on uneven gaps.
@@ -55,7 +56,7 @@ struct PairTable
       plane.sighting = random() % 2 == 0 ? Sighting::New : Sighting::Known;
       plane.declared = random() % 5 == 0;
       plane.history.bonded = random() % 5 == 0;
-      plane.joint = std::uint16_t(random() % 8);
+      plane.joint = std::uint16_t(random() % lawsInUse);
       plane.offset = .05 * u(random);
       plane.normal = normalised(Vec3{u(random), u(random), z * u(random)});
       plane.depthLimit = random() % 2 == 0 ? 1 : .2F;
@@ -145,8 +146,10 @@ std::vector<JointLaw> someLaws()
   brittle.bond.kind = Bond::Kind::Brittle;
   brittle.bond.tensileStrength = .01;
   brittle.cohesion = .01;
-  return {law,      other,           bent,     crushed, sheared, lifted,
-          softened, softenedByShear, dilating, bonded,  brittle};
+  const std::vector<JointLaw> all{law,      other,           bent,     crushed, sheared, lifted,
+                                  softened, softenedByShear, dilating, bonded,  brittle};
+  EXPECT_EQ(all.size(), lawsInUse);
+  return all;
 }
 
 ContactOptions damped(ContactOptions o)
@@ -211,6 +214,7 @@ struct Seen
   int uneven = 0, byShear = 0, even = 0; ///< crushed
   int loaded = 0, begun = 0;             ///< on the curve that stiffens most
   int narrow = 0;                        ///< closed, and too narrow to carry
+  int lifted = 0;                        ///< by slip of a dry joint
 };
 
 template <int Dim>
@@ -229,7 +233,7 @@ Seen expectTheBitsOfOnePairAtATime(const ContactOptions& o)
       {
         const HalfStepFace &a = faces[plane.face[0]], &b = faces[plane.face[1]];
         const bool wasUneven = plane.crushedUnevenly, carried = plane.area > 0;
-        const Real most = plane.history.maximumClosure;
+        const Real most = plane.history.maximumClosure, offset = plane.offset;
         updateByForces<Dim>(plane, a, b, laws[plane.joint], o, dt);
         EXPECT_TRUE(std::isfinite(norm(plane.forceOn(0))) && std::isfinite(plane.stored));
         seen.carrying += plane.area > 0;
@@ -237,6 +241,8 @@ Seen expectTheBitsOfOnePairAtATime(const ContactOptions& o)
             plane.joint == 1 && plane.history.maximumClosure > most && plane.area > 0;
         seen.narrow += plane.isBorn() && plane.area == 0 && plane.overlap > 0 &&
                        plane.closure > 0 && plane.exits != 0 && !plane.isRefused();
+        seen.lifted += carried && plane.joint >= 8 && !plane.history.bonded &&
+                       plane.state == PlaneState::Slip && plane.offset > offset;
         seen.uneven += plane.crushedUnevenly;
         seen.byShear += plane.crushedUnevenly && !wasUneven && plane.crushing().along[0] == 0 &&
                         plane.crushing().along[1] == 0;
@@ -281,6 +287,7 @@ void expectCrushing(const Seen& seen)
   EXPECT_GT(seen.loaded, 100);
   EXPECT_GT(seen.begun, 20);
   EXPECT_GT(seen.even, 1000);
+  EXPECT_GT(seen.lifted, 200);
 }
 } // namespace
 
