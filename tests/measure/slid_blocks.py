@@ -74,4 +74,5 @@ def main():
         measure(program, options.scenes, options.seed, goes_on=program == programs[0])
 
 
-main()
+if __name__ == "__main__":
+    main()
