@@ -68,12 +68,12 @@ def prepare(copy):
 
 
 def failed_checks(script, *arguments):
-    """Of one case, in a folder of its own; a run that is refused counts as one."""
+    """Of one case, in a folder of its own; that a run ends it counts as one."""
     with tempfile.TemporaryDirectory() as folder:
         done = subprocess.run([sys.executable, script, *arguments], cwd=folder, capture_output=True, text=True, stdin=subprocess.DEVNULL)
     checks = [json.loads(line) for line in done.stdout.splitlines() if line.startswith("{")]
     failed = [check["quantity"] for check in checks if check["passed"] is False and not check.get("reported")]
-    return failed or (["refused"] if done.returncode else [])
+    return failed or (["ended by a run"] if done.returncode else [])
 
 
 def run(program):
@@ -117,8 +117,12 @@ def run(program):
 if __name__ == "__main__":
     if sys.argv[1:2] == ["prepare"] and len(sys.argv) == 3:
         prepare(sys.argv[2])
-    elif sys.argv[1:2] == ["run"] and len(sys.argv) > 2 and all("=" in given for given in sys.argv[3:]):
-        os.environ.update(("VARY_" + given).split("=") for given in sys.argv[3:])
+    elif sys.argv[1:2] == ["run"] and len(sys.argv) > 2:
+        for given in sys.argv[3:]:
+            name, _, value = given.partition("=")
+            if name not in NAMES or not value:
+                sys.exit(f"{given}: give NAME=VALUE with one of {', '.join(NAMES)}")
+            os.environ["VARY_" + name] = value
         run(sys.argv[2])
     else:
         sys.exit(__doc__)
