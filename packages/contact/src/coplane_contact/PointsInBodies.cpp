@@ -73,6 +73,8 @@ public:
       if (ray.sign > 0 ? box.high[ray.axis] < ray.from[ray.axis]
                        : box.low[ray.axis] > ray.from[ray.axis])
         continue;
+      if (isBeside(box, grid.u, ray) || (grid.v >= 0 && isBeside(box, grid.v, ray)))
+        continue;
       const int turns = windingAround(*faces_[f], ray);
       if (turns != 0 && wayTo(*faces_[f], ray) > 0)
         visit(*faces_[f], ray.sign * turns);
@@ -176,6 +178,15 @@ private:
                       forEachBin(boxes_[f], [&](std::size_t bin) { visit(bin, int(f)); });
                   }};
     return grid;
+  }
+
+  /// Whether a ray passes a box by more than the round-off of windingAround(), which tells the
+  /// rest: so it finds nothing either.
+  static bool isBeside(const Box& box, int across, const Ray& ray)
+  {
+    const Real low = box.low[across], high = box.high[across], at = ray.from[across];
+    const Real margin = 1e-12 * (std::abs(low) + std::abs(high));
+    return at < low - margin || at > high + margin;
   }
 
   /// How often the face's outline, seen along the axis, goes round the ray counter-clockwise. An
