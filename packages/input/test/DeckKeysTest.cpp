@@ -203,9 +203,10 @@ std::string show(const Deck& d)
       showAll(out, key.show(j.parameters.get()));
   }
   const auto& c = d.contact;
-  showAll(out, c.enabled, c.preset, c.forces, c.area, c.weights, c.closure, c.couple, c.areaRule,
-          c.inherit, c.shareNode, c.initialOverlap, c.lostContact, c.debris, c.cosOpposed,
-          c.depthMax, c.areaMin, c.skin, c.searchEvery, c.dampNormal, c.dampShear, c.defaultJoint);
+  showAll(out, c.enabled, c.preset, c.forces, c.impulses, c.area, c.weights, c.closure, c.couple,
+          c.areaRule, c.inherit, c.shareNode, c.initialOverlap, c.lostContact, c.debris,
+          c.cosOpposed, c.depthMax, c.areaMin, c.skin, c.searchEvery, c.dampNormal, c.dampShear,
+          c.defaultJoint);
   for (const auto& p : c.pairs)
     showAll(out, p.blocks, p.materials, p.sideSets, p.jointSet, p.joint, p.declared, p.excluded);
   for (const auto& k : d.conditions)

@@ -83,7 +83,7 @@ void Contact::endPlanesOf(const std::vector<GlobalId>& deadElements,
       continue;
     // What the last force still does in this step belongs to what is lost.
     Real eroded = plane.stored - plane.work;
-    if (plane.area > 0)
+    if (plane.pushes())
     {
       const Substep& step = substepped_.has(planes().slotOf(p)) ? last : cycle;
       bookOldForce(plane, halfStep(plane.face[0], step), halfStep(plane.face[1], step), step.dt);

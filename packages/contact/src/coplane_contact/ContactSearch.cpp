@@ -46,7 +46,7 @@ Slots slotsOf(std::vector<CandidatePair> candidates, const PlaneTable& before,
     if (known == nullptr || !known->isBorn())
       return;
     const Plane& plane = *known;
-    if (plane.area > 0)
+    if (plane.pushes())
     {
       // A bond may hold while it is open farther than the skin, a contact be deeper than its limit,
       // and faces that do not oppose each other any more need one more update, which books the work
@@ -258,7 +258,7 @@ void Contact::addGhostsOfLivingPlanes(const std::vector<GlobalId>& nodeIds)
   std::vector<GhostFace>& ghosts = firstHalf_.ghosts.faces;
   std::vector<GlobalId> wanted;
   for (std::size_t p = 0; p < planes().size(); ++p)
-    if (const Plane& plane = planes()[p]; plane.area > 0)
+    if (const Plane& plane = planes()[p]; plane.pushes())
       for (const GlobalId id : plane.faceId)
         if (!hasFace(localFaces(), id) && !hasFace(ghosts, id))
           wanted.push_back(id);

@@ -21,12 +21,13 @@ struct FaceNodesOf
 };
 using FaceNodes = FaceNodesOf<Real>;
 
-/// Corners of a face relative to their mean, and the tensor sum |r|^2 I - r (x) r that turns a spin
-/// into a moment; in two dimensions only its zz entry is used.
-template <int Dim, class T>
+/// Corners of a face, or of a pair of faces, relative to their mean, and the tensor
+/// sum |r|^2 I - r (x) r that turns a spin into a moment; in two dimensions only its zz entry is
+/// used.
+template <int Dim, class T, int Corners = 4>
 struct FaceInertia
 {
-  Vec3Of<T> r[4];
+  Vec3Of<T> r[Corners];
   T xx{}, yy{}, zz{}, xy{}, yz{}, zx{};
   int count = 0;
 

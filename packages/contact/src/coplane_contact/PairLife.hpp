@@ -12,6 +12,8 @@ namespace coplane
 KOKKOS_INLINE_FUNCTION void carryNothing(Plane& plane)
 {
   plane.dropForces();
+  plane.settles = false;
+  plane.owed = 0;
   plane.normalDamping = 0;
   plane.area = 0;
   plane.stored = 0;
@@ -164,6 +166,16 @@ KOKKOS_INLINE_FUNCTION HalfStepFace placeOf(const HalfStepFaceOf<T>& from, int i
   return face;
 }
 
+/// The same with the velocities of its nodes.
+template <class T>
+KOKKOS_INLINE_FUNCTION HalfStepFace movingFace(const HalfStepFaceOf<T>& from, int i)
+{
+  HalfStepFace face = placeOf(from, i);
+  for (int k = 0; k < face.count; ++k)
+    face.v[k] = branchFree::lane(from.v[k], i);
+  return face;
+}
+
 /// Where the face in lane i was a step ago; face: at the end of the step.
 template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION HalfStepFace placeBefore(const HalfStepFaceOf<T>& face, int i, Real dt)
@@ -194,7 +206,7 @@ KOKKOS_INLINE_FUNCTION void passBy(Plane& plane, const HalfStepFace& a, const Ha
 /// Pairs sleep when passing by changes nothing more of them.
 KOKKOS_INLINE_FUNCTION Activity activityOf(const Plane& plane)
 {
-  if (plane.area > 0 || plane.nodeStiffness > 0)
+  if (plane.pushes() || plane.nodeStiffness > 0)
     return Activity::Loaded;
   if (plane.sighting != Sighting::Known || plane.isRefused())
     return Activity::Awake;

@@ -63,6 +63,8 @@ struct ContactOptions
   Real depthMax =
       0.6; ///< deepest penetration, as a fraction of the thinner element behind the faces
   Real areaMin = 1e-8; ///< smallest area of a new plane, as a fraction of the smaller face
+  /// Impulses of a step are those along its path, also where forces bend (potential only).
+  bool followsPath = false;
   Real dampNormal = 0; ///< fraction of critical damping
   Real dampShear = 0;
   /// Of this cycle: faces that may come together within this time count for the stable step [s].
@@ -200,7 +202,11 @@ struct alignas(64) Plane
   /// closed at a place is `offset` less these, each carried along by one face. In this line of the
   /// cache lies only what few planes need.
   Real laid[2][3] = {};
+  /// Work that the nodes do in half a step on what makes up for kinks of the last one [J].
+  Real owed = 0;
   bool acrossJoint = false; ///< between faces of a declared joint, or beside one
+  /// Carries nothing any more, but pushes for one cycle: what its last step has missed.
+  bool settles = false;
 
   KOKKOS_INLINE_FUNCTION Real& hysteresisDue() { return closureMemory[0]; }
   KOKKOS_INLINE_FUNCTION void bookHysteresisDue()
@@ -261,6 +267,9 @@ struct alignas(64) Plane
   {
     return lineage == Lineage::Inherited || lineage == Lineage::SlidesOn;
   }
+
+  /// Whether its nodes have forces of it.
+  KOKKOS_INLINE_FUNCTION bool pushes() const { return area > 0 || settles; }
 
   /// Whether it carries by how much its faces share: it began deep (PairPotential::growIn).
   KOKKOS_INLINE_FUNCTION bool carriesGrowing() const

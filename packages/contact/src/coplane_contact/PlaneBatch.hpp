@@ -69,13 +69,13 @@ KOKKOS_INLINE_FUNCTION T halfStepWork(const Vec3Of<T> (&nodal)[2][4], const Half
 }
 
 /// Work of the old force on the nodes in this step, by the trapezoid rule [J]; of the planes that
-/// carry traction, in the lanes of `mine`.
+/// push, in the lanes of `mine`.
 template <class T>
 KOKKOS_INLINE_FUNCTION void
 bookOldForce(const PlaneBatch<T>& planes, const branchFree::MaskOf<T>& mine,
              const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b, Real dt)
 {
-  const auto carried = mine && planes.each([](const Plane& p) { return p.area; }) > 0.0;
+  const auto carried = mine && planes.each([](const Plane& p) { return Real(p.pushes()); }) > 0.0;
   if (!branchFree::anyOf(carried))
     return;
   Vec3Of<T> nodal[2][4];

@@ -150,6 +150,10 @@ inline constexpr auto planeMembers = std::make_tuple(
     planeMember(
         "laid", "m", [](auto& p) -> auto& { return p.laid; }),
     planeMember(
+        "owed", "J", [](auto& p) -> auto& { return p.owed; }),
+    planeMember(
+        "settles", "-", [](auto& p) -> auto& { return p.settles; }),
+    planeMember(
         "across_joint", "-", [](auto& p) -> auto& { return p.acrossJoint; }),
     planeMember<Passing::Mean, Stale::WithCurve>(
         "maximum_closure", "m", [](auto& p) -> auto& { return p.history.maximumClosure; })

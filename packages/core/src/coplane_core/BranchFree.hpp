@@ -66,6 +66,17 @@ KOKKOS_FORCEINLINE_FUNCTION Vec3 lane(const Vec3Of<T>& a, int i)
   return {lane(a.x, i), lane(a.y, i), lane(a.z, i)};
 }
 
+KOKKOS_FORCEINLINE_FUNCTION void addInLane(Vec3& a, int, const Vec3& b)
+{
+  a += b;
+}
+KOKKOS_FORCEINLINE_FUNCTION void addInLane(Vec3Of<Lanes>& a, int i, const Vec3& b)
+{
+  a.x[i] = a.x[i] + b.x;
+  a.y[i] = a.y[i] + b.y;
+  a.z[i] = a.z[i] + b.z;
+}
+
 /// get(0), get(1), ... side by side.
 template <class T, class Get>
 KOKKOS_FORCEINLINE_FUNCTION T gathered(const Get& get)

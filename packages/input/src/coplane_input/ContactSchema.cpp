@@ -123,6 +123,12 @@ Key contactKeys()
                          "the normal of the common plane as in the paper of 2006; auto: "
                          "potential, but common_normal with preset seed, or where area, weights, "
                          "closure, couple or area_rule are not the defaults"),
+                 text("impulses", &ContactCard::impulses)
+                     .oneOf({"leapfrog", "path"})
+                     .like("path")
+                     .means("of forces from the potential in a step: the mean of those at both "
+                            "ends, or, where faces meet, part or pass an edge in between, what "
+                            "changes the energy along the path as they move"),
                  text("area", &ContactCard::area)
                      .oneOf({"penetrating", "full"})
                      .like("full")

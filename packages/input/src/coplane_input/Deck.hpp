@@ -97,11 +97,12 @@ struct ContactPairCard
 struct ContactCard
 {
   bool enabled = true;
-  std::string preset = "default";   ///< default | seed
-  std::string forces = "auto";      ///< auto | potential | common_normal
-  std::string area = "penetrating"; ///< penetrating | full
-  std::string weights = "pressure"; ///< pressure | average | centroid
-  std::string closure = "total";    ///< total | incremental
+  std::string preset = "default";    ///< default | seed
+  std::string forces = "auto";       ///< auto | potential | common_normal
+  std::string impulses = "leapfrog"; ///< leapfrog | path
+  std::string area = "penetrating";  ///< penetrating | full
+  std::string weights = "pressure";  ///< pressure | average | centroid
+  std::string closure = "total";     ///< total | incremental
   bool couple = true;
   bool areaRule = true;
   bool inherit = true;

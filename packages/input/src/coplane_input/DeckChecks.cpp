@@ -315,6 +315,11 @@ void checkForces(const Deck& deck, const DeckNode& root, Problems& problems)
   const std::string other = deck.contact.forces == "common_normal"
                                 ? std::string("contact.forces = 'common_normal'")
                                 : commonNormalBecauseOf(deck);
+  if (!other.empty() && deck.contact.impulses == "path")
+    problems.add(nodeAt(root, {"contact", "impulses"}),
+                 fmt::format("contact.impulses = 'path' does not go with {}, whose forces change "
+                             "no energy along a path; remove one of them.",
+                             other));
   if (!other.empty())
     for (const JointCard& joint : deck.joints)
       if (jointLawOf(joint).bond.resistsBending)

@@ -41,6 +41,7 @@ ContactOptions optionsOf(const Deck& deck)
   options.cosOpposed = card.cosOpposed.value_or(options.cosOpposed);
   options.depthMax = card.depthMax;
   options.areaMin = card.areaMin;
+  options.followsPath = card.impulses == "path";
   options.dampNormal = card.dampNormal;
   options.dampShear = card.dampShear;
   return options;

@@ -268,7 +268,7 @@ KOKKOS_FORCEINLINE_FUNCTION ClosedPair PotentialCycle<Dim, T>::closedPair(int i,
 template <int Dim, class T>
 KOKKOS_FORCEINLINE_FUNCTION void
 PotentialCycle<Dim, T>::stepH_forces(const Mask& touching, const T& area, const T& normalForce,
-                                     const Relative& relative)
+                                     const Relative& relative, const T& normalEnergy)
 {
   const auto& weights = relative.weights;
   Vec3Of<T> tangential =
@@ -293,6 +293,8 @@ PotentialCycle<Dim, T>::stepH_forces(const Mask& touching, const T& area, const 
       for (Vec3Of<T>& force : ofFace)
         for (T* const part : {&force.x, &force.y, &force.z})
           *part = branchFree::choose(none, T(0.0), *part);
+  if (options_.followsPath && dt_ > 0)
+    followPath(touching, normalEnergy, nodal);
   putForces(planes_, touching, nodal, a_, b_, dt_);
 }
 

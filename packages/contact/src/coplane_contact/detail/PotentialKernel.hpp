@@ -27,6 +27,19 @@ KOKKOS_INLINE_FUNCTION T spinAbout(const Vec3Of<T>& axis, const HalfStepFaceOf<T
   return moment / inertia;
 }
 
+KOKKOS_INLINE_FUNCTION EdgesOf<Real> edgesOf(const Plane& plane)
+{
+  EdgesOf<Real> edges;
+  for (int e = 0; e < 8; ++e)
+  {
+    edges.exits[e] = plane.exits >> e & 1;
+    edges.turns[e] = plane.turns >> e & 1;
+    edges.covered[e] = plane.covered >> e & 1;
+    edges.seams[e] = plane.seams >> e & 1;
+  }
+  return edges;
+}
+
 template <class T>
 KOKKOS_INLINE_FUNCTION EdgesOf<T> edgesOf(const PlaneBatch<T>& planes)
 {
@@ -88,6 +101,10 @@ public:
   {
     linearise();
     meet();
+    if (options_.followsPath)
+      before_ = {planes_.each([](const Plane& p) { return p.remainder(); }),
+                 planes_.each([](const Plane& p) { return p.stored; }),
+                 planes_.each([](const Plane& p) { return p.area; })};
     bookOldForce(planes_, done_, a_, b_, dt_);
     const Mask touching = stepEF_findOrCreate();
     if (branchFree::anyOf(touching))
@@ -385,7 +402,7 @@ private:
         addClosedPart(pair_, *planes_.plane[0], slope_ - response.slopes[0], normalForce,
                       normalEnergy);
     payLifts(response, area, normalForce);
-    stepH_forces(touching, area, normalForce, relative);
+    stepH_forces(touching, area, normalForce, relative, normalEnergy);
 
     const Vec3Of<T> point = 0.5 * (weighted(relative.weights[0], a_.x, a_.count) +
                                    weighted(relative.weights[1], b_.x, b_.count));
@@ -474,9 +491,35 @@ private:
   KOKKOS_FORCEINLINE_FUNCTION ClosedPair closedPair(int i, Real energyShare) const;
 
   /// Forces at the corners: of the potential, of shear, whose moment is carried by the turning of
-  /// the plane, and of damping.
+  /// the plane, of damping, and what the last step has missed.
+  /// @param normalEnergy that is stored along the normal [J]
   KOKKOS_FORCEINLINE_FUNCTION void stepH_forces(const Mask& touching, const T& area,
-                                                const T& normalForce, const Relative& relative);
+                                                const T& normalForce, const Relative& relative,
+                                                const T& normalEnergy);
+  // What makes up for kinks within a step (PathOfStep.hpp); rare, and not inlined.
+  /// Adds to the forces of pairs that carry what the mean of those at both ends of the step lacks
+  /// of their mean along its path, where they bend.
+  [[gnu::noinline]] KOKKOS_FUNCTION void followPath(const Mask& touching, const T& normalEnergy,
+                                                    Vec3Of<T> (&nodal)[2][4]) const;
+  /// The plane of lane i carries no longer: what remains is what its last step has missed.
+  [[gnu::noinline]] KOKKOS_FUNCTION void partOnPath(Plane& plane, int i) const;
+  /// The energy of a pair along the normal [J], and minus its gradient [N].
+  struct NormalPush
+  {
+    Real energy = 0;
+    Vec3 forces[2][4] = {};
+  };
+  /// That of lane i at a time `ago` before the end of the step [s]. @returns whether it was in
+  /// contact then
+  [[gnu::noinline]] KOKKOS_FUNCTION bool pushAt(const Plane& plane, int i, Real ago,
+                                                NormalPush& push) const;
+  /// What followPath() adds: what the mean of the forces at both ends of the step lacks of that in
+  /// the middle, by so much as makes their work along the path the change of the energy [N].
+  /// @param carried, carries whether it does so at the beginning and at the end of the step
+  /// @returns whether there is anything: not where the rules for the life of a plane have made it
+  ///          begin or end, and no kink
+  [[gnu::noinline]] KOKKOS_FUNCTION bool missedOnPath(const Plane& plane, int i, bool carried,
+                                                      bool carries, Vec3 (&missed)[2][4]) const;
 
   /// Dashpots, whose work is booked.
   /// @param normalDamping gets the force along the normal [N]
@@ -518,6 +561,11 @@ private:
   bool crushes_[width] = {};    ///< may be crushed unevenly
   T slope_, hardening_;         ///< the same; one over the depth from which a penalty hardens [1/m]
   Mask bonded_, done_;
+  /// Of the planes, when the cycle begins, if they follow the path.
+  struct
+  {
+    T remainder, stored, area;
+  } before_;
   Mask bends_;                             ///< bonds that resist bending
   BentBonds<T> bent_;                      ///< how these are bent
   T offset_;                               ///< beyond what is closed for good [m]
@@ -565,6 +613,7 @@ KOKKOS_INLINE_FUNCTION void updateByForces(Plane& plane, const HalfStepFace& a,
 }
 } // namespace coplane
 
+#include <coplane_contact/detail/PathOfStep.hpp>
 #include <coplane_contact/detail/PotentialBirths.hpp>
 #include <coplane_contact/detail/PotentialCurves.hpp>
 #include <coplane_contact/detail/PotentialForces.hpp>

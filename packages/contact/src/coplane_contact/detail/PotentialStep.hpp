@@ -28,7 +28,10 @@ KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::boundStep(const Mask& t
         plane.frictionWork += plane.shearEnergy();
       if (planes_.law[i]->curve.crushing.loss > 0)
         plane.bookHysteresisDue();
-      carryNothing(plane);
+      if (options_.followsPath && dt_ > 0)
+        partOnPath(plane, i);
+      else
+        carryNothing(plane);
       if (plane.overlap > 0)
         plane.gap = leastGaps_[i];
     }
