@@ -11,9 +11,9 @@ namespace coplane::detail
 /// energy changes has no kink [-]. Pairs that hand a border on to each other miss opposite forces:
 /// either both make up for them or none, up to so much of their energy.
 constexpr Real smoothEnough = 1e-6;
-/// The most of what the mean of the forces at both ends of a step lacks of that in the middle: then
-/// the force in the middle stands for all of the step [-].
-constexpr Real mostOfMiddle = 1;
+/// Where one force in the middle does not make up for what a step misses it is cut, into no more
+/// parts than this.
+constexpr int mostParts = 8;
 
 /// Takes the couple off forces at the nodes of both faces, by forces that turn them about their
 /// middle as a rigid body is turned.
@@ -78,28 +78,60 @@ template <int Dim, class T>
 KOKKOS_FUNCTION bool PotentialCycle<Dim, T>::missedOnPath(const Plane& plane, int i, bool carried,
                                                           bool carries, Vec3 (&missed)[2][4]) const
 {
-  // Where it is no contact it has no forces.
-  NormalPush before, middle, after;
-  const bool pushed = pushAt(plane, i, dt_, before), pushes = pushAt(plane, i, 0, after);
+  NormalPush first, last; // where it is no contact it has no forces
+  const bool pushed = pushAt(plane, i, dt_, first), pushes = pushAt(plane, i, 0, last);
   if (pushed != carried || pushes != carries)
     return false;
-  pushAt(plane, i, 0.5 * dt_, middle);
-  const HalfStepFace a = movingFace(a_, i), b = movingFace(b_, i);
+  for (int parts = 1; !sumOverParts(plane, i, parts, first, last, missed) && parts < mostParts;)
+    parts *= 2;
   for (int f = 0; f < 2; ++f)
     for (int k = 0; k < 4; ++k)
-      missed[f][k] = middle.forces[f][k] - 0.5 * (before.forces[f][k] + after.forces[f][k]);
-  const Real lacks = before.energy - after.energy - halfStepWork(before.forces, a, b, dt_) -
-                     halfStepWork(after.forces, a, b, dt_);
-  const Real all = 2 * halfStepWork(missed, a, b, dt_);
-  if (!(lacks * all > 0))
-    return false;
-  const Real part = lacks / all < mostOfMiddle ? lacks / all : mostOfMiddle;
-  for (auto& ofFace : missed)
-    for (Vec3& force : ofFace)
-      force = part * force;
+      missed[f][k] = missed[f][k] - 0.5 * (first.forces[f][k] + last.forces[f][k]);
   if (!options_.axisymmetric)
-    takeCoupleOff<Dim>(missed, a, b);
+    takeCoupleOff<Dim>(missed, placeOf(a_, i), placeOf(b_, i));
   return true;
+}
+
+template <int Dim, class T>
+KOKKOS_FUNCTION bool
+PotentialCycle<Dim, T>::sumOverParts(const Plane& plane, int i, int parts, const NormalPush& first,
+                                     const NormalPush& last, Vec3 (&mean)[2][4]) const
+{
+  const HalfStepFace a = movingFace(a_, i), b = movingFace(b_, i);
+  const Real share = 1.0 / parts;
+  bool fits = true;
+  for (auto& ofFace : mean)
+    for (Vec3& force : ofFace)
+      force = {};
+  NormalPush before = first;
+  for (int part = 0; part < parts; ++part)
+  {
+    NormalPush middle, after;
+    pushAt(plane, i, (1 - (part + 0.5) * share) * dt_, middle);
+    if (part + 1 < parts)
+      pushAt(plane, i, (1 - (part + 1) * share) * dt_, after);
+    else
+      after = last;
+    Vec3 ends[2][4], bend[2][4];
+    for (int f = 0; f < 2; ++f)
+      for (int k = 0; k < 4; ++k)
+      {
+        ends[f][k] = 0.5 * (before.forces[f][k] + after.forces[f][k]);
+        bend[f][k] = middle.forces[f][k] - ends[f][k];
+      }
+    const Real released = before.energy - after.energy;
+    const Real lacks = released - 2 * share * halfStepWork(ends, a, b, dt_);
+    const Real all = 2 * share * halfStepWork(bend, a, b, dt_);
+    const Real wanted = lacks * all > 0 ? lacks / all : 0;
+    const Real got = wanted < 1 ? wanted : 1;
+    const Real most = before.energy > after.energy ? before.energy : after.energy;
+    fits = fits && std::fabs(lacks - got * all) <= smoothEnough * most;
+    for (int f = 0; f < 2; ++f)
+      for (int k = 0; k < 4; ++k)
+        mean[f][k] += share * (ends[f][k] + got * bend[f][k]);
+    before = after;
+  }
+  return fits;
 }
 
 template <int Dim, class T>

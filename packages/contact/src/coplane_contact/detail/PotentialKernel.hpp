@@ -513,8 +513,14 @@ private:
   /// contact then
   [[gnu::noinline]] KOKKOS_FUNCTION bool pushAt(const Plane& plane, int i, Real ago,
                                                 NormalPush& push) const;
-  /// What followPath() adds: what the mean of the forces at both ends of the step lacks of that in
-  /// the middle, by so much as makes their work along the path the change of the energy [N].
+  /// The mean of the forces along the path of the step, cut into parts [N]: in each that of both
+  /// ends, and so much towards that in the middle as makes their work the change of the energy.
+  /// @returns whether that could be done in all parts, by all of the middle or less
+  [[gnu::noinline]] KOKKOS_FUNCTION bool sumOverParts(const Plane& plane, int i, int parts,
+                                                      const NormalPush& first,
+                                                      const NormalPush& last,
+                                                      Vec3 (&mean)[2][4]) const;
+  /// What followPath() adds [N].
   /// @param carried, carries whether it does so at the beginning and at the end of the step
   /// @returns whether there is anything: not where the rules for the life of a plane have made it
   ///          begin or end, and no kink
