@@ -215,6 +215,7 @@ struct Seen
   int loaded = 0, begun = 0;             ///< on the curve that stiffens most
   int narrow = 0;                        ///< closed, and too narrow to carry
   int lifted = 0;                        ///< by slip of a dry joint
+  int bent = 0, lagging = 0;             ///< forces within a step; after the end of a contact
 };
 
 template <int Dim>
@@ -243,6 +244,8 @@ Seen expectTheBitsOfOnePairAtATime(const ContactOptions& o)
                        plane.closure > 0 && plane.exits != 0 && !plane.isRefused();
         seen.lifted += carried && plane.joint >= 8 && !plane.history.bonded &&
                        plane.state == PlaneState::Slip && plane.offset > offset;
+        seen.bent += plane.planned != 0;
+        seen.lagging += plane.lags;
         seen.uneven += plane.crushedUnevenly;
         seen.byShear += plane.crushedUnevenly && !wasUneven && plane.crushing().along[0] == 0 &&
                         plane.crushing().along[1] == 0;
@@ -277,7 +280,15 @@ std::vector<ContactOptions> allOptions()
       all.push_back(someOptions(area, weights));
   all.push_back(ContactOptions{}); // the potential
   all.push_back(damped(ContactOptions{}));
+  all.back().followsPath = true;
+  all.push_back(damped(ContactOptions{}));
   return all;
+}
+
+void expectBentForces(const Seen& seen, const ContactOptions& o)
+{
+  EXPECT_EQ(seen.bent > 100, o.followsPath) << seen.bent;
+  EXPECT_EQ(seen.lagging > 10, o.followsPath) << seen.lagging;
 }
 
 void expectCrushing(const Seen& seen)
@@ -296,6 +307,7 @@ TEST(PairLanes, haveTheBitsOfOnePairAtATime)
   for (const ContactOptions& o : allOptions())
   {
     const Seen seen = expectTheBitsOfOnePairAtATime<3>(o);
+    expectBentForces(seen, o);
     EXPECT_GT(seen.asleep, 300);
     EXPECT_GT(seen.woken, 5);
     EXPECT_GT(seen.carrying, 5000);
@@ -312,6 +324,7 @@ TEST(PairLanes, haveTheBitsOfOnePairAtATimeInTwoDimensions)
   for (const ContactOptions& o : allOptions())
   {
     const Seen seen = expectTheBitsOfOnePairAtATime<2>(o);
+    expectBentForces(seen, o);
     EXPECT_GT(seen.asleep, 100);
     EXPECT_GT(seen.carrying, 5000);
     if (o.forces == ContactOptions::Forces::Potential)

@@ -233,6 +233,16 @@ TEST(JointCards, bondsThatResistBending)
             std::string::npos);
 }
 
+TEST(JointCards, impulsesAlongThePathNeedForcesOfThePotential)
+{
+  for (const std::string other : {"forces: common_normal", "preset: seed", "area: full"})
+  {
+    const std::string text = errorOf(leastDeck + "contact: {impulses: path, " + other + "}\n");
+    EXPECT_NE(text.find("contact.impulses = 'path' does not go with contact."), std::string::npos)
+        << other << ": " << text;
+  }
+}
+
 TEST(JointCards, bondsThatResistBendingNeedForcesOfThePotential)
 {
   const std::string text = errorOf(

@@ -118,7 +118,7 @@ UNTOLD = {
                      "maxwell_damping", "nodal_pressure"], NONE),
     **dict.fromkeys(["V49_taylor_anvil", "V50_spinning_ring", "V72_axisymmetric_contact", "V75_cylinder_test", "ring_forms", "penetration", "perforation"], AXIS),
     **dict.fromkeys(["conditions_act", "cut_blocks", "cut_rock", "erosion", "fragments", "safe_step", "V62_search_interval", "V91_stages"], OWN),
-    **dict.fromkeys(["V87_cracked_beam", "V87_lines", "V93_crushed_joint", "declared_joints", "far_away", "fast_blocks", "ring_contacts", "symmetry"], ITSELF),
+    **dict.fromkeys(["V87_cracked_beam", "V87_lines", "V93_crushed_joint", "declared_joints", "far_away", "fast_blocks", "path_impulses", "ring_contacts", "symmetry"], ITSELF),
     **{name: SAME.format(case) for name, case in (("arch_2d", "V53"), ("ball_wall_2d", "V57"), ("bars_2d", "V21"), ("rocking_block_2d", "V51"))},
     "V84_factor_of_safety": ELSEWHERE,
     "deep_slides": "soft bodies that slide tenths of an element deep in each other: which events come hangs on round-off, motions are up to 0.3 apart, and one scene of 29 is stopped when it is turned",

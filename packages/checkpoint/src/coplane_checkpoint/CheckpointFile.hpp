@@ -12,7 +12,7 @@ namespace coplane
 /// checksum covers all bytes behind, so that HDF5 never reads a file that is not whole.
 struct CheckpointHead
 {
-  static constexpr int version = 23;              ///< of the format
+  static constexpr int version = 24;              ///< of the format
   static constexpr std::uint64_t headBytes = 512; ///< the user block of HDF5
 
   std::int64_t cycle = 0;

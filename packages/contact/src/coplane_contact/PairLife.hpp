@@ -12,8 +12,7 @@ namespace coplane
 KOKKOS_INLINE_FUNCTION void carryNothing(Plane& plane)
 {
   plane.dropForces();
-  plane.settles = false;
-  plane.owed = 0;
+  plane.lags = false;
   plane.normalDamping = 0;
   plane.area = 0;
   plane.stored = 0;
@@ -31,6 +30,8 @@ KOKKOS_INLINE_FUNCTION void openUp(Plane& plane, const HalfStepFace& a, const Ha
                                    Real dt)
 {
   bookOldForce(plane, a, b, dt);
+  if (plane.pushes())
+    plane.planned = 0;
   carryNothing(plane);
 }
 

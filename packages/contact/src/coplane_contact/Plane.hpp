@@ -151,7 +151,8 @@ struct alignas(64) Plane
   PlaneState state = PlaneState::Slot;
   Sighting sighting = Sighting::New;
   Refusal refusal = Refusal::None;
-  Lineage lineage = Lineage::Own;
+  /// Carries nothing any more, but pushes for one cycle: what its last step has missed.
+  bool lags = false;
   bool countedHere = false; ///< this rank books the plane's energy: it owns face 0
   bool declared = false;    ///< a joint that was closed at the start
   bool tooDeep = false;     ///< deeper than the limit
@@ -202,11 +203,12 @@ struct alignas(64) Plane
   /// closed at a place is `offset` less these, each carried along by one face. In this line of the
   /// cache lies only what few planes need.
   Real laid[2][3] = {};
-  /// Work that the nodes do in half a step on what makes up for kinks of the last one [J].
-  Real owed = 0;
+  /// Of what makes up for forces that bend within a step (ContactOptions::followsPath): what it is
+  /// to do on the nodes in the coming half step [J].
+  Real planned = 0;
+  float debt = 0; ///< and what it has done less than that, in all [J]
+  Lineage lineage = Lineage::Own;
   bool acrossJoint = false; ///< between faces of a declared joint, or beside one
-  /// Carries nothing any more, but pushes for one cycle: what its last step has missed.
-  bool settles = false;
 
   KOKKOS_INLINE_FUNCTION Real& hysteresisDue() { return closureMemory[0]; }
   KOKKOS_INLINE_FUNCTION void bookHysteresisDue()
@@ -269,7 +271,7 @@ struct alignas(64) Plane
   }
 
   /// Whether its nodes have forces of it.
-  KOKKOS_INLINE_FUNCTION bool pushes() const { return area > 0 || settles; }
+  KOKKOS_INLINE_FUNCTION bool pushes() const { return area > 0 || lags; }
 
   /// Whether it carries by how much its faces share: it began deep (PairPotential::growIn).
   KOKKOS_INLINE_FUNCTION bool carriesGrowing() const

@@ -99,6 +99,8 @@ inline constexpr auto planeMembers = std::make_tuple(
     planeMember(
         "refusal", "-", [](auto& p) -> auto& { return p.refusal; }),
     planeMember(
+        "lags", "-", [](auto& p) -> auto& { return p.lags; }),
+    planeMember(
         "lineage", "-", [](auto& p) -> auto& { return p.lineage; }),
     planeMember(
         "declared", "-", [](auto& p) -> auto& { return p.declared; })
@@ -150,9 +152,9 @@ inline constexpr auto planeMembers = std::make_tuple(
     planeMember(
         "laid", "m", [](auto& p) -> auto& { return p.laid; }),
     planeMember(
-        "owed", "J", [](auto& p) -> auto& { return p.owed; }),
+        "planned", "J", [](auto& p) -> auto& { return p.planned; }),
     planeMember(
-        "settles", "-", [](auto& p) -> auto& { return p.settles; }),
+        "debt", "J", [](auto& p) -> auto& { return p.debt; }),
     planeMember(
         "across_joint", "-", [](auto& p) -> auto& { return p.acrossJoint; }),
     planeMember<Passing::Mean, Stale::WithCurve>(

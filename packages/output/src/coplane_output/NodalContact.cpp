@@ -42,7 +42,8 @@ NodalContact nodalContact(const Solver& solver)
         nodal.state[node] = std::max(nodal.state[node], Real(int(plane.state)));
         nodal.pressure[node] += plane.area * plane.normalTraction;
         area[node] += plane.area;
-        nodal.traction[node] += plane.forceOn(side);
+        if (plane.area > 0) // not what makes up for the last step of a pair that has parted
+          nodal.traction[node] += plane.forceOn(side);
         if (plane.state != PlaneState::Open)
         {
           closed[node] += plane.area;

@@ -3,17 +3,20 @@
 #include <coplane_contact/detail/PotentialKernel.hpp>
 
 // What PotentialCycle does where the forces of a pair bend within a step
-// (docs/theory/contact-potential.md, "Kinks within a step").
+// (docs/theory/contact-potential.md, "Forces that bend within a step").
 
 namespace coplane::detail
 {
 /// A step whose forces work by less than this fraction of what a pair stores otherwise than its
-/// energy changes has no kink [-]. Pairs that hand a border on to each other miss opposite forces:
-/// either both make up for them or none, up to so much of their energy.
+/// energy changes does not bend them [-]. Pairs that hand a border on to each other miss opposite
+/// forces, and one of them may be below it.
 constexpr Real smoothEnough = 1e-6;
 /// Where one force in the middle does not make up for what a step misses it is cut, into no more
 /// parts than this.
 constexpr int mostParts = 8;
+/// What makes up for a step is at most so many times what its path says, to pay what those before
+/// it have left over [-].
+constexpr Real mostPaid = 2;
 
 /// Takes the couple off forces at the nodes of both faces, by forces that turn them about their
 /// middle as a rigid body is turned.
@@ -54,14 +57,15 @@ KOKKOS_FUNCTION bool PotentialCycle<Dim, T>::pushAt(const Plane& plane, int i, R
     pair.beCrushed(plane.crushing());
   if (plane.isGrowing())
     pair.growIn();
-  pair.meet(plane.offset - permanents_[i], false, edgesOf(plane));
+  // What is crushed unevenly is not in the offset.
+  pair.meet(plane.offset - (plane.crushedUnevenly ? 0 : permanents_[i]), false, edgesOf(plane));
   if (!(pair.overlap > options_.areaMin * (a.area < b.area ? a.area : b.area)) ||
       !(pair.moments.area > 0 && pair.moments.volume > 0))
     return false;
   EnergyDensity<Real> density;
   const Real energy = pair.press(slopes_[i], branchFree::lane(hardening_, i), density);
   if (pair.hasNothing())
-    return true;
+    return false;
   const auto birth = [&](int f)
   { return plane.birthArea[f] > 0 ? plane.birthArea[f] : pair.faceArea(f); };
   pair.growFrom(birth(0), birth(1));
@@ -75,21 +79,44 @@ KOKKOS_FUNCTION bool PotentialCycle<Dim, T>::pushAt(const Plane& plane, int i, R
 }
 
 template <int Dim, class T>
-KOKKOS_FUNCTION bool PotentialCycle<Dim, T>::missedOnPath(const Plane& plane, int i, bool carried,
-                                                          bool carries, Vec3 (&missed)[2][4]) const
+KOKKOS_FUNCTION bool PotentialCycle<Dim, T>::makeUp(Plane& plane, int i, bool carried, bool carries,
+                                                    bool bends, Real lost,
+                                                    Vec3 (&missed)[2][4]) const
 {
   NormalPush first, last; // where it is no contact it has no forces
-  const bool pushed = pushAt(plane, i, dt_, first), pushes = pushAt(plane, i, 0, last);
-  if (pushed != carried || pushes != carries)
+  // Where rules for the life of a plane have made it begin or end there is nothing to compare with.
+  const bool known =
+      bends && pushAt(plane, i, dt_, first) == carried && pushAt(plane, i, 0, last) == carries;
+  Vec3 ends[2][4];
+  for (int f = 0; f < 2; ++f)
+    for (int k = 0; k < 4; ++k)
+      ends[f][k] = 0.5 * (first.forces[f][k] + last.forces[f][k]);
+  const Real lacks = known ? first.energy - last.energy - work(ends, i) : 0;
+  // What made up for the last step works with the mean of two velocities, and was found from one.
+  const Real most = std::fabs(plane.planned), less = lost - lacks;
+  if (!carried)
+    plane.debt = 0;
+  else if (known || !bends)
+    plane.debt += float(less > most ? most : less < -most ? -most : less);
+  plane.planned = 0;
+  if (!known)
     return false;
   for (int parts = 1; !sumOverParts(plane, i, parts, first, last, missed) && parts < mostParts;)
     parts *= 2;
   for (int f = 0; f < 2; ++f)
     for (int k = 0; k < 4; ++k)
-      missed[f][k] = missed[f][k] - 0.5 * (first.forces[f][k] + last.forces[f][k]);
+      missed[f][k] = missed[f][k] - ends[f][k];
   if (!options_.axisymmetric)
     takeCoupleOff<Dim>(missed, placeOf(a_, i), placeOf(b_, i));
-  return true;
+  const Real due = lacks + plane.debt, all = work(missed, i);
+  const Real wanted = due * all > 0 ? due / all : 0;
+  const Real part = wanted < mostPaid ? wanted : mostPaid;
+  plane.debt = float(due - part * all);
+  plane.planned = 0.5 * part * all;
+  for (auto& ofFace : missed)
+    for (Vec3& force : ofFace)
+      force = part * force;
+  return part > 0;
 }
 
 template <int Dim, class T>
@@ -140,7 +167,7 @@ KOKKOS_FUNCTION void PotentialCycle<Dim, T>::followPath(const Mask& touching, co
 {
   using namespace branchFree;
   const T stored = normalEnergy + planes_.each([](const Plane& p) { return p.shearEnergy(); });
-  const T lost = planes_.each([](const Plane& p) { return p.remainder() + p.stored + p.owed; }) -
+  const T lost = planes_.each([](const Plane& p) { return p.remainder() + p.stored + p.planned; }) -
                  halfStepWork(nodal, a_, b_, dt_) - stored - before_.remainder;
   const Mask bends =
       touching && !bonded_ && absolute(lost) > smoothEnough * larger(stored, before_.stored);
@@ -149,12 +176,13 @@ KOKKOS_FUNCTION void PotentialCycle<Dim, T>::followPath(const Mask& touching, co
     if (!lane(touching, i))
       continue;
     Plane& plane = *planes_.plane[i];
-    plane.owed = 0;
-    plane.settles = false;
     Vec3 missed[2][4];
-    if (!lane(bends, i) || !missedOnPath(plane, i, lane(before_.area, i) > 0, true, missed))
+    const bool pushes = plane.area > 0; // a strip that is left sideways does not
+    const bool pays =
+        makeUp(plane, i, lane(before_.area, i) > 0, pushes, lane(bends, i), lane(lost, i), missed);
+    plane.lags = pays && !pushes;
+    if (!pays)
       continue;
-    plane.owed = halfStepWork(missed, movingFace(a_, i), movingFace(b_, i), dt_);
     for (int f = 0; f < 2; ++f)
       for (int k = 0; k < (f == 0 ? a_.count : b_.count); ++k)
         addInLane(nodal[f][k], i, missed[f][k]);
@@ -165,19 +193,21 @@ template <int Dim, class T>
 KOKKOS_FUNCTION void PotentialCycle<Dim, T>::partOnPath(Plane& plane, int i) const
 {
   const Real lost =
-      plane.remainder() + plane.stored + plane.owed - branchFree::lane(before_.remainder, i);
+      plane.remainder() + plane.stored + plane.planned - branchFree::lane(before_.remainder, i);
   Vec3 missed[2][4];
-  const bool bends = plane.area > 0 && !plane.isRefused() && !plane.history.bonded &&
-                     std::fabs(lost) > smoothEnough * plane.stored &&
-                     missedOnPath(plane, i, true, false, missed);
+  const bool pays =
+      plane.area > 0 && !plane.history.bonded &&
+      makeUp(plane, i, true, false, std::fabs(lost) > smoothEnough * plane.stored, lost, missed);
   carryNothing(plane);
-  if (!bends)
+  if (!pays)
+  {
+    plane.planned = 0;
     return;
-  plane.owed = halfStepWork(missed, movingFace(a_, i), movingFace(b_, i), dt_);
-  plane.work -= plane.owed;
+  }
+  plane.work -= plane.planned;
   for (int f = 0; f < 2; ++f)
     for (int k = 0; k < 4; ++k)
       plane.nodal[f][k] = missed[f][k];
-  plane.settles = true;
+  plane.lags = true;
 }
 } // namespace coplane::detail

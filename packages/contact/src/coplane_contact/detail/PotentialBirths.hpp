@@ -11,7 +11,7 @@ template <int Dim, class T>
 KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::rest(Plane& plane, int i) const
 {
   const bool crushed = crushes_[i] && permanents_[i] > 0 && branchFree::lane(deepest_, i) > 0;
-  const bool absorbed = plane.isInherited() && plane.history.absorbed;
+  const bool absorbed = plane.history.absorbed && plane.isInherited();
   if (!plane.isBorn() && (crushed || absorbed) && branchFree::lane(overlaps_, i))
     stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i), leastGaps_[i]);
 }

@@ -496,7 +496,7 @@ private:
   KOKKOS_FORCEINLINE_FUNCTION void stepH_forces(const Mask& touching, const T& area,
                                                 const T& normalForce, const Relative& relative,
                                                 const T& normalEnergy);
-  // What makes up for kinks within a step (PathOfStep.hpp); rare, and not inlined.
+  // What makes up for forces that bend within a step (PathOfStep.hpp); rare, and not inlined.
   /// Adds to the forces of pairs that carry what the mean of those at both ends of the step lacks
   /// of their mean along its path, where they bend.
   [[gnu::noinline]] KOKKOS_FUNCTION void followPath(const Mask& touching, const T& normalEnergy,
@@ -509,8 +509,8 @@ private:
     Real energy = 0;
     Vec3 forces[2][4] = {};
   };
-  /// That of lane i at a time `ago` before the end of the step [s]. @returns whether it was in
-  /// contact then
+  /// That of lane i at a time `ago` before the end of the step [s]. @returns whether it pushed
+  /// then
   [[gnu::noinline]] KOKKOS_FUNCTION bool pushAt(const Plane& plane, int i, Real ago,
                                                 NormalPush& push) const;
   /// The mean of the forces along the path of the step, cut into parts [N]: in each that of both
@@ -520,12 +520,18 @@ private:
                                                       const NormalPush& first,
                                                       const NormalPush& last,
                                                       Vec3 (&mean)[2][4]) const;
-  /// What followPath() adds [N].
+  /// What the forces at both ends of a step lack of that, times what pays for all that has been
+  /// lost [N].
   /// @param carried, carries whether it does so at the beginning and at the end of the step
-  /// @returns whether there is anything: not where the rules for the life of a plane have made it
-  ///          begin or end, and no kink
-  [[gnu::noinline]] KOKKOS_FUNCTION bool missedOnPath(const Plane& plane, int i, bool carried,
-                                                      bool carries, Vec3 (&missed)[2][4]) const;
+  /// @param bends whether the step bends them; lost: in it, but for what was planned [J]
+  /// @returns whether there is anything
+  KOKKOS_FUNCTION bool makeUp(Plane& plane, int i, bool carried, bool carries, bool bends,
+                              Real lost, Vec3 (&missed)[2][4]) const;
+  /// Work of forces at the nodes in a step that moves as the last one [J].
+  KOKKOS_INLINE_FUNCTION Real work(const Vec3 (&forces)[2][4], int i) const
+  {
+    return 2 * halfStepWork(forces, movingFace(a_, i), movingFace(b_, i), dt_);
+  }
 
   /// Dashpots, whose work is booked.
   /// @param normalDamping gets the force along the normal [N]
