@@ -83,6 +83,13 @@ KOKKOS_FUNCTION bool PotentialCycle<Dim, T>::makeUp(Plane& plane, int i, bool ca
                                                     bool bends, Real lost,
                                                     Vec3 (&missed)[2][4]) const
 {
+  // A joint that closes as never before, or is crushed, had another energy a step ago.
+  if (plane.hysteresisWork != branchFree::lane(before_.hysteresis, i) ||
+      slopes_[i] != branchFree::lane(before_.slope, i))
+  {
+    plane.planned = 0;
+    return false;
+  }
   NormalPush first, last; // where it is no contact it has no forces
   // Where rules for the life of a plane have made it begin or end there is nothing to compare with.
   const bool known =
@@ -93,10 +100,11 @@ KOKKOS_FUNCTION bool PotentialCycle<Dim, T>::makeUp(Plane& plane, int i, bool ca
       ends[f][k] = 0.5 * (first.forces[f][k] + last.forces[f][k]);
   const Real lacks = known ? first.energy - last.energy - work(ends, i) : 0;
   // What made up for the last step works with the mean of two velocities, and was found from one.
+  // Shear errs by itself, so nothing is known of that where there is any.
   const Real most = std::fabs(plane.planned), less = lost - lacks;
   if (!carried)
     plane.debt = 0;
-  else if (known || !bends)
+  else if ((known || !bends) && dot(plane.history.shearTraction, plane.history.shearTraction) == 0)
     plane.debt += float(less > most ? most : less < -most ? -most : less);
   plane.planned = 0;
   if (!known)

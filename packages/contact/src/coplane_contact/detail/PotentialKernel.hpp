@@ -100,11 +100,13 @@ public:
   KOKKOS_FORCEINLINE_FUNCTION Mask run()
   {
     linearise();
+    const T slope = all(slopes_);
     meet();
     if (options_.followsPath)
       before_ = {planes_.each([](const Plane& p) { return p.remainder(); }),
                  planes_.each([](const Plane& p) { return p.stored; }),
-                 planes_.each([](const Plane& p) { return p.area; })};
+                 planes_.each([](const Plane& p) { return p.area; }),
+                 planes_.each([](const Plane& p) { return p.hysteresisWork; }), slope};
     bookOldForce(planes_, done_, a_, b_, dt_);
     const Mask touching = stepEF_findOrCreate();
     if (branchFree::anyOf(touching))
@@ -576,7 +578,7 @@ private:
   /// Of the planes, when the cycle begins, if they follow the path.
   struct
   {
-    T remainder, stored, area;
+    T remainder, stored, area, hysteresis, slope; ///< slope: of the closure curve [Pa/m]
   } before_;
   Mask bends_;                             ///< bonds that resist bending
   BentBonds<T> bent_;                      ///< how these are bent
