@@ -100,11 +100,10 @@ KOKKOS_FUNCTION bool PotentialCycle<Dim, T>::makeUp(Plane& plane, int i, bool ca
       ends[f][k] = 0.5 * (first.forces[f][k] + last.forces[f][k]);
   const Real lacks = known ? first.energy - last.energy - work(ends, i) : 0;
   // What made up for the last step works with the mean of two velocities, and was found from one.
-  // Shear errs by itself, so nothing is known of that where there is any.
   const Real most = std::fabs(plane.planned), less = lost - lacks;
   if (!carried)
     plane.debt = 0;
-  else if ((known || !bends) && dot(plane.history.shearTraction, plane.history.shearTraction) == 0)
+  else if (known || !bends)
     plane.debt += float(less > most ? most : less < -most ? -most : less);
   plane.planned = 0;
   if (!known)
