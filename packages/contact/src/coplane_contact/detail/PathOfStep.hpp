@@ -83,6 +83,8 @@ KOKKOS_FUNCTION bool PotentialCycle<Dim, T>::makeUp(Plane& plane, int i, bool ca
                                                     bool bends, Real lost,
                                                     Vec3 (&missed)[2][4]) const
 {
+  if (!carried)
+    plane.debt = 0;
   // A joint that closes as never before, or is crushed, had another energy a step ago.
   if (plane.hysteresisWork != branchFree::lane(before_.hysteresis, i) ||
       slopes_[i] != branchFree::lane(before_.slope, i))
@@ -101,9 +103,7 @@ KOKKOS_FUNCTION bool PotentialCycle<Dim, T>::makeUp(Plane& plane, int i, bool ca
   const Real lacks = known ? first.energy - last.energy - work(ends, i) : 0;
   // What made up for the last step works with the mean of two velocities, and was found from one.
   const Real most = std::fabs(plane.planned), less = lost - lacks;
-  if (!carried)
-    plane.debt = 0;
-  else if (known || !bends)
+  if (carried && (known || !bends))
     plane.debt += float(less > most ? most : less < -most ? -most : less);
   plane.planned = 0;
   if (!known)
