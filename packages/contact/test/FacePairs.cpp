@@ -60,7 +60,7 @@ Plane lookedIn(const HalfStepFace& a, const HalfStepFace& b, PlaneState state)
   if (mayMeet<Dim>(a, b, options))
     updateByForces<Dim>(plane, a, b, plane.law, options, dt);
   else
-    passBy(plane, a, b, dt);
+    passBy<Dim>(plane, a, b, dt);
   return plane;
 }
 } // namespace

@@ -62,17 +62,51 @@ for dimension, rigid, start in itertools.product((2, 3), (False, True), range(6 
             folder = f"boxes_{dimension}_{int(rigid)}_{start}_{impulses}_{factor:g}"
             run = case.run(folder, recipe, deck, energy=0.1)
             h = run.history
-            lost.setdefault((kind, impulses, factor), []).append(float(numpy.max(numpy.abs(h["contact_remainder"]))) / h["kinetic"].max())
+            left = numpy.abs(h["contact_remainder"]) / h["kinetic"].max()
+            lost.setdefault((kind, impulses, factor), []).append((float(left[-1]), float(numpy.max(left))))
             if (impulses, factor, start) == ("path", 0.8, 0):
                 case.check_equal(f"{folder}: contacts", bool(h["contact_stored"].max() > 0.01 * h["kinetic"].max()), True)
                 case.same_bits(folder, recipe, deck, run, ranks=3, threads=2)
                 case.restarts(folder, recipe, deck, run, 0.37 * deck["time"]["end"], ranks=2)
 for kind in sorted({kind for kind, *_ in lost}):
     for factor in factors:
-        ends, path = (lost[kind, which, factor] for which in ("leapfrog", "path"))
-        case.check(f"{kind}, step factor {factor:g}: contact remainder, median of {len(path)} motions", float(numpy.median(path)), 0, 2e-3 if factor == 0.8 else 1e-3)
-        case.check(f"{kind}, step factor {factor:g}: over that of the leapfrog rule", float(numpy.median(path) / numpy.median(ends)), 0, 0.6)
+        ends, path = (numpy.median(lost[kind, which, factor], axis=0) for which in ("leapfrog", "path"))
+        name = f"{kind}, step factor {factor:g}"
+        case.check(f"{name}: contact remainder at the end, median of the motions", float(path[0]), 0, 2e-4)
+        case.check(f"{name}: over that of the leapfrog rule", float(path[0] / ends[0]), 0, 0.2)
+        case.check(f"{name}: the largest at any time, median of the motions", float(path[1]), 0, 5e-3)  # what is owed is paid later
 
+
+# --- Blocks that ring on each other under their weight, and in a row with gaps: contacts begin and end all the time --------
+def ringing(row):
+    """Four blocks on a rigid floor, gravity at once; or three between rigid walls, 0.1 mm apart, the first of them thrown."""
+    gap, names = 1e-4, [f"block_{n}" for n in range(3 if row else 4)]
+    if row:
+        rigid = [box("left", [-0.1, -0.05], [0.1, 0.3], [1, 3]), box("right", [3 * 0.2 + 4 * gap, -0.05], [0.1, 0.3], [1, 3])]
+        parts = [box(name, [n * 0.2 + (n + 1) * gap, 0.0], [0.2, 0.2], [3, 3]) for n, name in enumerate(names)]
+    else:
+        rigid = [box("floor", [-1.0, -0.1], [2.0, 0.1], [10, 1])]
+        parts = [box(name, [-0.15, 0.2 * n], [0.3, 0.2], [4, 2]) for n, name in enumerate(names)]
+    walls = [part["block"] for part in rigid]
+    deck = {
+        "materials": {"rubber": rubber},
+        "blocks": {**{name: {"material": "rubber", "rigid": True} for name in walls}, **{name: {"material": "rubber"} for name in names}},
+        "conditions": [{"type": "rigid_motion", "block": name, "velocity": [0, 0, 0], "angular_velocity": [0, 0, 0]} for name in walls],
+        "viscosity": quiet, "time": {"end": 1.0, "step_factor": 0.8, "energy_tolerance": 0.5},
+        "history": {"every": 1e-2}, "output": {"planes": False},
+        "contact": {"impulses": "path"},
+    }  # fmt: skip
+    deck.update({"initial": [{"block": names[0], "velocity": [1.0, 0.0, 0.0]}]} if row else {"gravity": [0, -9.81, 0]})
+    return {"dimension": 2, "parts": [*rigid, *parts]}, deck
+
+
+for row, most in ((False, 0.03), (True, 0.06)):
+    recipe, deck = ringing(row)
+    name = "a row with gaps" if row else "a stack"
+    run = case.run("row" if row else "stack", recipe, deck, energy=0.5)
+    h = run.history
+    play = float(numpy.max(h["kinetic"] + h["internal"] + h["contact_stored"]))
+    case.check(f"{name}: contact remainder over the largest energy in play, of all times", float(numpy.max(numpy.abs(h["contact_remainder"]))) / play, 0, most)
 
 # --- A corner that lands over a line of the mesh, or a seam; and the same turned, mirrored, flying past ---------
 def landing(tilt, off, cut, angle=0.0, mirrored=False, drift=(0.0, 0.0)):
@@ -121,6 +155,6 @@ for tilt, off in ((45, 3e-3), (30, 0.0), (20, 0.0), (10, -3e-3)):
             case.check(f"corner at {tilt} degrees: contact remainder", run.history["contact_remainder"][-1] / run.history["kinetic"][0], 0, 2e-4)
         if name == "cut":
             case.same_bits(f"corner_{tilt}_cut", recipe, deck, run, ranks=3, threads=2, change_mesh=place)
-    for name, most in {"cut": 1e-4, "turned": 1e-4, "mirrored": 1e-12, "drifting": 1e-12, "finer": 2e-4}.items():
+    for name, most in {"cut": 2e-4, "turned": 2e-4, "mirrored": 1e-12, "drifting": 1e-12, "finer": 2e-4}.items():
         case.check(f"corner at {tilt} degrees, {name}: velocity against the whole", float(numpy.linalg.norm(found[name] - found["whole"])), 0, most)
 case.finish()

@@ -50,6 +50,7 @@ public:
     plane.opposed = plane.opposed && xi_ > scale.opposedFrom;
     if (!anyOf(plane.opposed))
       return;
+    kappa_ = dot(plane.normal, a.normal);
     shadow[0] = stepC_projectOntoPlane<Dim>(plane, a, 0);
     shadow[1] = stepC_projectOntoPlane<Dim>(plane, b, 0);
     plane.opposed = plane.opposed && !coplane::shadowsApart(shadow[0], shadow[1]);
@@ -86,7 +87,6 @@ public:
   {
     using namespace branchFree;
     const HalfStepFaceOf<T>&a = *face_[0], &b = *face_[1];
-    kappa_ = dot(plane.normal, a.normal);
     const Vec3Of<T> tilt = 0.5 * (a.normal + b.normal), apart = b.center - a.center;
     tilt_ = closureTilt_ = inPlane(tilt);
     apart_ = inPlane(apart);

@@ -26,13 +26,66 @@ KOKKOS_INLINE_FUNCTION void carryNothing(Plane& plane)
   }
 }
 
-KOKKOS_INLINE_FUNCTION void openUp(Plane& plane, const HalfStepFace& a, const HalfStepFace& b,
-                                   Real dt)
+/// Takes the couple off forces at the nodes of both faces, by forces that turn them about their
+/// middle as a rigid body is turned.
+template <int Dim>
+KOKKOS_INLINE_FUNCTION void takeCoupleOff(Vec3 (&force)[2][4], const HalfStepFace& a,
+                                          const HalfStepFace& b)
 {
-  bookOldForce(plane, a, b, dt);
+  Vec3 x[8], forces[8];
+  int count = 0;
+  for (int f = 0; f < 2; ++f)
+  {
+    const HalfStepFace& face = f == 0 ? a : b;
+    for (int k = 0; k < face.count; ++k, ++count)
+    {
+      x[count] = face.x[k];
+      forces[count] = force[f][k];
+    }
+  }
+  const FaceInertia<Dim, Real, 8> inertia(x, count);
+  const Vec3 spin = inertia.solve(inertia.momentOf(forces));
+  int i = 0;
+  for (int f = 0; f < 2; ++f)
+    for (int k = 0; k < (f == 0 ? a.count : b.count); ++k, ++i)
+      force[f][k] = force[f][k] - cross(spin, inertia.r[i]);
+}
+
+/// A plane that does not carry. Where it has, and what made up for its last steps has not done what
+/// it should (detail/PathOfStep.hpp), it pushes on in the same way for what is left, cycle after
+/// cycle, until little is. Its old force is booked.
+template <int Dim>
+KOKKOS_INLINE_FUNCTION void payRest(Plane& plane, const HalfStepFace& a, const HalfStepFace& b,
+                                    Real dt)
+{
+  constexpr Real little = 0.02, hopeless = 20; // of what the push does [-]
+  Vec3 push[2][4];
+  for (int f = 0; f < 2; ++f)
+    for (int k = 0; k < 4; ++k)
+      push[f][k] = plane.nodal[f][k];
+  const Real done = plane.lags && plane.planned != 0 ? halfStepWork(push, a, b, dt) : 0;
+  const Real due = plane.debt + plane.planned - done;
   if (plane.pushes())
+  {
     plane.planned = 0;
+    plane.debt = 0;
+  }
   carryNothing(plane);
+  const Real wanted = done != 0 ? due / (2 * done) : 0;
+  if (!(std::fabs(wanted) > little && std::fabs(wanted) < hopeless))
+    return;
+  const Real part = wanted > 1 ? 1 : wanted < -1 ? -1 : wanted;
+  for (auto& ofFace : push)
+    for (Vec3& force : ofFace)
+      force = part * force;
+  takeCoupleOff<Dim>(push, a, b);
+  plane.planned = halfStepWork(push, a, b, dt);
+  plane.debt = float(due - 2 * plane.planned);
+  plane.work -= plane.planned;
+  for (int f = 0; f < 2; ++f)
+    for (int k = 0; k < 4; ++k)
+      plane.nodal[f][k] = push[f][k];
+  plane.lags = true;
 }
 
 /// Depth, as a fraction of the depth limit, beyond which a first overlap is not taken for a
@@ -177,14 +230,17 @@ KOKKOS_INLINE_FUNCTION HalfStepFace movingFace(const HalfStepFaceOf<T>& from, in
   return face;
 }
 
-/// Where the face in lane i was a step ago; face: at the end of the step.
+/// The face in lane i as it was a step ago, with the velocities of the step; face: at its end.
 template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION HalfStepFace placeBefore(const HalfStepFaceOf<T>& face, int i, Real dt)
 {
   FaceNodes nodes;
   nodes.count = face.count;
   for (int k = 0; k < face.count; ++k)
-    nodes.x[k] = branchFree::lane(face.x[k], i) - dt * branchFree::lane(face.v[k], i);
+  {
+    nodes.v[k] = branchFree::lane(face.v[k], i);
+    nodes.x[k] = branchFree::lane(face.x[k], i) - dt * nodes.v[k];
+  }
   return stepA_faceAtEnd<Dim>(nodes);
 }
 
@@ -193,10 +249,12 @@ KOKKOS_INLINE_FUNCTION HalfStepFace placeBefore(const HalfStepFaceOf<T>& face, i
 constexpr Real alongThePlane = 0.5;
 
 /// A pair whose shadows share nothing in this cycle.
+template <int Dim>
 KOKKOS_INLINE_FUNCTION void passBy(Plane& plane, const HalfStepFace& a, const HalfStepFace& b,
                                    Real dt)
 {
-  openUp(plane, a, b, dt);
+  bookOldForce(plane, a, b, dt);
+  payRest<Dim>(plane, a, b, dt);
   plane.overlap = 0;
   plane.unseen = false;
   plane.nodeStiffness = 0;

@@ -151,7 +151,7 @@ struct alignas(64) Plane
   PlaneState state = PlaneState::Slot;
   Sighting sighting = Sighting::New;
   Refusal refusal = Refusal::None;
-  /// Carries nothing any more, but pushes for one cycle: what its last step has missed.
+  /// Carries nothing any more, but pushes on for what its last steps have missed.
   bool lags = false;
   bool countedHere = false; ///< this rank books the plane's energy: it owns face 0
   bool declared = false;    ///< a joint that was closed at the start

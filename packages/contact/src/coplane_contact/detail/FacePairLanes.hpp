@@ -127,13 +127,15 @@ struct PairTables
   }
   bool carries(int p) const { return planes[p] != nullptr && planes[p]->area > 0; }
   /// For a pair that carries nothing and whose shadows share nothing.
+  template <int Dim>
   void passBy(int p, const HalfStepFace& a, const HalfStepFace& b, Real dt) const
   {
     if (isAsleep(p))
       return;
     if (planes[p] != nullptr)
-      coplane::passBy(*planes[p], a, b, dt);
-    setActivity(p, Activity::Asleep);
+      coplane::passBy<Dim>(*planes[p], a, b, dt);
+    const bool pushesOn = planes[p] != nullptr && planes[p]->pushes();
+    setActivity(p, pushesOn ? Activity::Loaded : Activity::Asleep);
   }
   void setActivity(int p, Activity now) const
   {
@@ -251,7 +253,7 @@ private:
     {
       const int p = queue.plane[i];
       if (!meet[i])
-        pairs_.passBy(p, face(p, 0), face(p, 1), dt_);
+        pairs_.template passBy<Dim>(p, face(p, 0), face(p, 1), dt_);
       else if (!pairs_.leaveOut(p, face(p, 0), face(p, 1), options_.lookAhead))
       {
         pairs_.prepare(p);

@@ -14,34 +14,12 @@ constexpr Real smoothEnough = 1e-6;
 /// Where one force in the middle does not make up for what a step misses it is cut, into no more
 /// parts than this.
 constexpr int mostParts = 8;
+/// And only as long as parts half as long leave less than this of what cannot be made up [-]:
+/// borders that pairs share have no energy whose gradient they are, however short the path.
+constexpr Real worthCutting = 0.5;
 /// What makes up for a step is at most so many times what its path says, to pay what those before
 /// it have left over [-].
 constexpr Real mostPaid = 2;
-
-/// Takes the couple off forces at the nodes of both faces, by forces that turn them about their
-/// middle as a rigid body is turned.
-template <int Dim>
-KOKKOS_INLINE_FUNCTION void takeCoupleOff(Vec3 (&force)[2][4], const HalfStepFace& a,
-                                          const HalfStepFace& b)
-{
-  Vec3 x[8], forces[8];
-  int count = 0;
-  for (int f = 0; f < 2; ++f)
-  {
-    const HalfStepFace& face = f == 0 ? a : b;
-    for (int k = 0; k < face.count; ++k, ++count)
-    {
-      x[count] = face.x[k];
-      forces[count] = force[f][k];
-    }
-  }
-  const FaceInertia<Dim, Real, 8> inertia(x, count);
-  const Vec3 spin = inertia.solve(inertia.momentOf(forces));
-  int i = 0;
-  for (int f = 0; f < 2; ++f)
-    for (int k = 0; k < (f == 0 ? a.count : b.count); ++k, ++i)
-      force[f][k] = force[f][k] - cross(spin, inertia.r[i]);
-}
 
 template <int Dim, class T>
 KOKKOS_FUNCTION bool PotentialCycle<Dim, T>::pushAt(const Plane& plane, int i, Real ago,
@@ -83,7 +61,8 @@ KOKKOS_FUNCTION bool PotentialCycle<Dim, T>::makeUp(Plane& plane, int i, bool ca
                                                     bool bends, Real lost,
                                                     Vec3 (&missed)[2][4]) const
 {
-  if (!carried)
+  const bool pushed = carried || plane.lags;
+  if (!pushed)
     plane.debt = 0;
   // A joint that closes as never before, or is crushed, had another energy a step ago.
   if (plane.hysteresisWork != branchFree::lane(before_.hysteresis, i) ||
@@ -102,14 +81,23 @@ KOKKOS_FUNCTION bool PotentialCycle<Dim, T>::makeUp(Plane& plane, int i, bool ca
       ends[f][k] = 0.5 * (first.forces[f][k] + last.forces[f][k]);
   const Real lacks = known ? first.energy - last.energy - work(ends, i) : 0;
   // What made up for the last step works with the mean of two velocities, and was found from one.
-  const Real most = std::fabs(plane.planned), less = lost - lacks;
-  if (carried && (known || !bends))
-    plane.debt += float(less > most ? most : less < -most ? -most : less);
+  if (pushed && (known || !bends))
+    plane.debt += float(lost - lacks);
   plane.planned = 0;
   if (!known)
     return false;
-  for (int parts = 1; !sumOverParts(plane, i, parts, first, last, missed) && parts < mostParts;)
-    parts *= 2;
+  Real unpaid = sumOverParts(plane, i, 1, first, last, missed);
+  for (int parts = 2; unpaid > 0 && parts <= mostParts; parts *= 2)
+  {
+    Vec3 finer[2][4];
+    const Real left = sumOverParts(plane, i, parts, first, last, finer);
+    if (left > worthCutting * unpaid)
+      break;
+    unpaid = left;
+    for (int f = 0; f < 2; ++f)
+      for (int k = 0; k < 4; ++k)
+        missed[f][k] = finer[f][k];
+  }
   for (int f = 0; f < 2; ++f)
     for (int k = 0; k < 4; ++k)
       missed[f][k] = missed[f][k] - ends[f][k];
@@ -127,13 +115,14 @@ KOKKOS_FUNCTION bool PotentialCycle<Dim, T>::makeUp(Plane& plane, int i, bool ca
 }
 
 template <int Dim, class T>
-KOKKOS_FUNCTION bool
-PotentialCycle<Dim, T>::sumOverParts(const Plane& plane, int i, int parts, const NormalPush& first,
-                                     const NormalPush& last, Vec3 (&mean)[2][4]) const
+KOKKOS_FUNCTION Real PotentialCycle<Dim, T>::sumOverParts(const Plane& plane, int i, int parts,
+                                                          const NormalPush& first,
+                                                          const NormalPush& last,
+                                                          Vec3 (&mean)[2][4]) const
 {
   const HalfStepFace a = movingFace(a_, i), b = movingFace(b_, i);
   const Real share = 1.0 / parts;
-  bool fits = true;
+  Real unpaid = 0;
   for (auto& ofFace : mean)
     for (Vec3& force : ofFace)
       force = {};
@@ -159,13 +148,14 @@ PotentialCycle<Dim, T>::sumOverParts(const Plane& plane, int i, int parts, const
     const Real wanted = lacks * all > 0 ? lacks / all : 0;
     const Real got = wanted < 1 ? wanted : 1;
     const Real most = before.energy > after.energy ? before.energy : after.energy;
-    fits = fits && std::fabs(lacks - got * all) <= smoothEnough * most;
+    const Real left = std::fabs(lacks - got * all);
+    unpaid += left > smoothEnough * most ? left : 0;
     for (int f = 0; f < 2; ++f)
       for (int k = 0; k < 4; ++k)
         mean[f][k] += share * (ends[f][k] + got * bend[f][k]);
     before = after;
   }
-  return fits;
+  return unpaid;
 }
 
 template <int Dim, class T>
@@ -199,11 +189,16 @@ KOKKOS_FUNCTION void PotentialCycle<Dim, T>::followPath(const Mask& touching, co
 template <int Dim, class T>
 KOKKOS_FUNCTION void PotentialCycle<Dim, T>::partOnPath(Plane& plane, int i) const
 {
+  if (!(plane.area > 0))
+  {
+    payRest<Dim>(plane, movingFace(a_, i), movingFace(b_, i), dt_);
+    return;
+  }
   const Real lost =
       plane.remainder() + plane.stored + plane.planned - branchFree::lane(before_.remainder, i);
   Vec3 missed[2][4];
   const bool pays =
-      plane.area > 0 && !plane.history.bonded &&
+      !plane.history.bonded &&
       makeUp(plane, i, true, false, std::fabs(lost) > smoothEnough * plane.stored, lost, missed);
   carryNothing(plane);
   if (!pays)

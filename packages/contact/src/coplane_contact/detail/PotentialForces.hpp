@@ -67,20 +67,22 @@ PotentialCycle<Dim, T>::stepG_motion() const
   const Vec3Of<T> drift =
       weighted(r.weights[1], b_.v, b_.count) - weighted(r.weights[0], a_.v, a_.count);
   r.closing = -dot(n, drift);
-  r.sliding = slidingInStep(at, drift, r);
+  slideInStep(at, drift, r);
   return r;
 }
 
 template <int Dim, class T>
-KOKKOS_FORCEINLINE_FUNCTION Vec3Of<T>
-PotentialCycle<Dim, T>::slidingInStep(const Vec2Of<T>& at, const Vec3Of<T>& drift,
-                                      const Relative& now) const
+KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::slideInStep(const Vec2Of<T>& at,
+                                                                     const Vec3Of<T>& drift,
+                                                                     Relative& relative) const
 {
   using branchFree::choose;
   const auto& plane = pair_.plane;
-  Vec3Of<T> along = drift + now.closing * plane.normal;
+  const Vec3Of<T> alongNow = drift + relative.closing * plane.normal;
+  Vec3Of<T> along = alongNow;
   Vec3Of<T> turning = pair_.normalRate();
-  T apart = now.apart;
+  T apart = relative.apart;
+  relative.gained = {};
   const Mask held = planes_.each(
                         [](const Plane& p)
                         {
@@ -91,7 +93,7 @@ PotentialCycle<Dim, T>::slidingInStep(const Vec2Of<T>& at, const Vec3Of<T>& drif
   {
     const T half = choose(held, T(0.5), T(0.0));
     const Vec3Of<T> normalThen = planes_.eachVector([](const Plane& p) { return p.normal; });
-    const Vec3Of<T> offPoint = (0.5 * (now.apart + dt_ * now.closing)) * normalThen;
+    const Vec3Of<T> offPoint = (0.5 * (relative.apart + dt_ * relative.closing)) * normalThen;
     const Vec3Of<T> point =
         planes_.eachVector([](const Plane& p) { return p.pointOfContact; }) - plane.point;
     T weights[2][4];
@@ -99,11 +101,12 @@ PotentialCycle<Dim, T>::slidingInStep(const Vec2Of<T>& at, const Vec3Of<T>& drif
     {
       const HalfStepFaceOf<T>& face = f == 0 ? a_ : b_;
       const Vec3Of<T> then = (f == 0 ? point - offPoint : point + offPoint) +
-                             dt_ * weighted(now.weights[f], face.v, face.count);
+                             dt_ * weighted(relative.weights[f], face.v, face.count);
       const Vec2Of<T> thenAt{dot(plane.e1, then), Dim == 2 ? T(0.0) : dot(plane.e2, then)};
       pair_.weightsAt(f, at + half * (thenAt - at), weights[f]);
     }
-    apart = apartAt(weights) + choose(held, dt_ * now.closing, T(0.0));
+    const T apartThere = apartAt(weights);
+    apart = apartThere + choose(held, dt_ * relative.closing, T(0.0));
     along = weighted(weights[1], b_.v, b_.count) - weighted(weights[0], a_.v, a_.count);
     along = along - dot(plane.normal, along) * plane.normal;
     Vec3Of<T> turned = plane.normal - normalThen;
@@ -111,8 +114,9 @@ PotentialCycle<Dim, T>::slidingInStep(const Vec2Of<T>& at, const Vec3Of<T>& drif
     turning.x = choose(held, turned.x / dt_, turning.x);
     turning.y = choose(held, turned.y / dt_, turning.y);
     turning.z = choose(held, turned.z / dt_, turning.z);
+    relative.gained = 2.0 * (alongNow - along - (relative.apart - apartThere) * turning);
   }
-  return along - apart * turning;
+  relative.sliding = along - apart * turning;
 }
 
 template <int Dim, class T>
@@ -148,7 +152,7 @@ KOKKOS_FORCEINLINE_FUNCTION Vec3Of<T> PotentialCycle<Dim, T>::shearAfter(const T
 template <int Dim, class T>
 KOKKOS_FORCEINLINE_FUNCTION void
 PotentialCycle<Dim, T>::stepH_law(Plane& plane, int i, Real area, Real energyShare, Real loaded,
-                                  const Vec3& tau, const Vec3& increment, Real closing,
+                                  const Vec3& tau, const Vec3& increment, const Relative& relative,
                                   Response& out) const
 {
   const JointLaw& law = *planes_.law[i];
@@ -159,7 +163,7 @@ PotentialCycle<Dim, T>::stepH_law(Plane& plane, int i, Real area, Real energySha
   plane.closure = permanents_[i] + branchFree::lane(m.volume / m.area, i);
   plane.tooDeep = plane.isTooDeep();
   if (!(area > 0) && plane.area > 0)
-    plane.frictionWork += plane.shearEnergy();
+    plane.frictionWork += endedShear(plane, i);
   plane.history.shearTraction = tau;
 
   const Real opposedness = branchFree::lane(pair_.opposedness, i);
@@ -196,7 +200,7 @@ PotentialCycle<Dim, T>::stepH_law(Plane& plane, int i, Real area, Real energySha
     const ClosedPair pair = closedPair(i, energyShare);
     loadCurve(plane, law, pair, response, reached_[i], state);
     if (law.curve.crushing.acts())
-      crushByShear(plane, pair, response, dt_ * closing);
+      crushByShear(plane, pair, response, dt_ * branchFree::lane(relative.closing, i));
   }
   plane.history = state;
   if (!wasBonded && !law.curve.crushing.acts())
@@ -205,7 +209,14 @@ PotentialCycle<Dim, T>::stepH_law(Plane& plane, int i, Real area, Real energySha
     out.liftWork[i] = area * response.liftWork;
     out.before[i] = plane.area * plane.normalTraction;
   }
-  plane.frictionWork += area * response.frictionWork;
+  Real friction = area * response.frictionWork;
+  if (area > 0 && plane.area > 0 && !wasBonded &&
+      (response.slipping || !(response.normalTraction > 0)))
+  {
+    friction += area * takenBesides(plane, i, tau, increment, shrunk, relative);
+    friction = friction > 0 ? friction : 0;
+  }
+  plane.frictionWork += friction;
   out.tractions[i] = response.normalTraction;
   out.stored[i] =
       wasBonded ? law.storedNormally(plane.fit, plane.closure + response.dilation, plane.history)
@@ -219,6 +230,46 @@ PotentialCycle<Dim, T>::stepH_law(Plane& plane, int i, Real area, Real energySha
   plane.fractureWork += area * response.fractureWork;
   if (wasBonded && !plane.history.bonded && !bends)
     plane.offset -= settlement<Dim>(plane, law, a_, b_, i, options_, out.stored[i] * wholeArea);
+}
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION Real PotentialCycle<Dim, T>::takenBesides(
+    const Plane& plane, int i, const Vec3& tau, const Vec3& increment, Real shrunk,
+    const Relative& relative) const
+{
+  const Vec3& now = plane.history.shearTraction;
+  const Vec3 gained = branchFree::lane(relative.gained, i);
+  return -0.5 * (1 - shrunk) / (1 + shrunk) * dot(now - tau, increment) -
+         0.25 * dt_ * dot(now - shrunk * tau, gained);
+}
+
+template <int Dim, class T>
+KOKKOS_FUNCTION Real PotentialCycle<Dim, T>::endedShear(const Plane& plane, int i) const
+{
+  const Real stored = plane.shearEnergy();
+  if (plane.history.bonded || !(stored > 0) || !(dt_ > 0))
+    return stored;
+  const HalfStepFace faces[2] = {placeBefore<Dim>(a_, i, dt_), placeBefore<Dim>(b_, i, dt_)};
+  const PairPotential<Dim, Real> pair(faces[0], faces[1], ContactPotentialScale(options_));
+  if (!pair.plane.opposed)
+    return stored;
+  const Vec3 from = plane.pointOfContact - pair.plane.point;
+  const Vec2 at{dot(pair.plane.e1, from), Dim == 2 ? 0 : dot(pair.plane.e2, from)};
+  Vec3 sliding;
+  Real apart = 0;
+  for (int f = 0; f < 2; ++f)
+  {
+    const HalfStepFace& face = faces[f];
+    Real weights[4];
+    pair.weightsAt(f, at, weights);
+    const Real sign = f == 0 ? -1 : 1;
+    sliding += sign * weighted(weights, face.v, face.count);
+    for (int k = 0; k < face.count; ++k)
+      apart += sign * weights[k] * pair.shadow[f].height[k];
+  }
+  sliding = sliding - apart * pair.normalRate();
+  const Real taken = stored - 0.5 * dt_ * plane.area * dot(plane.history.shearTraction, sliding);
+  return taken > 0 ? taken : 0;
 }
 
 template <int Dim, class T>

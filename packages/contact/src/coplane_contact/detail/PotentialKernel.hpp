@@ -126,7 +126,8 @@ private:
     T apart;           ///< of the faces along the normal [m]
     T gap;             ///< the same, which the offset less the closure is where layers lie [m]
     T closing;         ///< rate at which they close [m/s]
-    Vec3Of<T> sliding; ///< velocity of b past a [m/s]
+    Vec3Of<T> sliding; ///< velocity of b past a, in the middle of the step [m/s]
+    Vec3Of<T> gained;  ///< of that from its beginning to its end, as the place moves [m/s]
   };
   /// What the law of a joint gives.
   struct Response
@@ -366,7 +367,7 @@ private:
         plane.gap = branchFree::lane(relative.gap, i);
         stepH_law(plane, i, branchFree::lane(area, i), branchFree::lane(energyShare, i),
                   branchFree::lane(loaded, i), branchFree::lane(tau, i),
-                  branchFree::lane(increment, i), branchFree::lane(relative.closing, i), response);
+                  branchFree::lane(increment, i), relative, response);
         // What can leave sideways is not deep.
         plane.tooDeep =
             plane.tooDeep && (branchFree::lane(share, i) > alongThePlane || plane.isGrowing());
@@ -457,8 +458,9 @@ private:
   /// shear before did so a step ago less near, in a plane that was less turned, which counts alike,
   /// and at the centre of pressure of then.
   /// @param at centre of pressure now; drift: velocity of b against a there [m/s]
-  KOKKOS_FORCEINLINE_FUNCTION Vec3Of<T> slidingInStep(const Vec2Of<T>& at, const Vec3Of<T>& drift,
-                                                      const Relative& now) const;
+  /// @param relative gets how they slide, and what they gain
+  KOKKOS_FORCEINLINE_FUNCTION void slideInStep(const Vec2Of<T>& at, const Vec3Of<T>& drift,
+                                               Relative& relative) const;
 
   /// The shear state is traction times the root of the area, so that its energy does not hang on
   /// the area.
@@ -471,10 +473,20 @@ private:
   /// @param area in contact; energyShare: energy of the pair over what its closure stores [-];
   ///        loaded: force [N] over opposedness
   /// @param tau shear traction before the step [Pa]; increment: of sliding [m]
-  /// @param closing rate at which the faces close [m/s]
   KOKKOS_FORCEINLINE_FUNCTION void stepH_law(Plane& plane, int i, Real area, Real energyShare,
                                              Real loaded, const Vec3& tau, const Vec3& increment,
-                                             Real closing, Response& out) const;
+                                             const Relative& relative, Response& out) const;
+
+  /// What a joint that slips takes besides what its law has booked [J]: the mean of the work of its
+  /// shear forces at both ends of the step, at places that move, over areas that change, is not
+  /// that of the mean traction.
+  /// @param tau, increment as in stepH_law; shrunk: root of the area before over that now [-]
+  KOKKOS_FORCEINLINE_FUNCTION Real takenBesides(const Plane& plane, int i, const Vec3& tau,
+                                                const Vec3& increment, Real shrunk,
+                                                const Relative& relative) const;
+  /// What the shear of a plane takes that carries no longer [J]: what it has stored, and what its
+  /// forces work in the step in which they end.
+  KOKKOS_FUNCTION Real endedShear(const Plane& plane, int i) const;
 
   /// What a pair that begins to carry can hold of the shear traction that it has taken over, which
   /// a neighbour may have raised while its area shrank [Pa]. The rest was never its own: it is no
@@ -517,8 +529,8 @@ private:
                                                 NormalPush& push) const;
   /// The mean of the forces along the path of the step, cut into parts [N]: in each that of both
   /// ends, and so much towards that in the middle as makes their work the change of the energy.
-  /// @returns whether that could be done in all parts, by all of the middle or less
-  [[gnu::noinline]] KOKKOS_FUNCTION bool sumOverParts(const Plane& plane, int i, int parts,
+  /// @returns what could not be made so, by all of the middle or less [J]
+  [[gnu::noinline]] KOKKOS_FUNCTION Real sumOverParts(const Plane& plane, int i, int parts,
                                                       const NormalPush& first,
                                                       const NormalPush& last,
                                                       Vec3 (&mean)[2][4]) const;

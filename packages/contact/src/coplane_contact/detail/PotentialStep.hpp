@@ -25,7 +25,7 @@ KOKKOS_FORCEINLINE_FUNCTION void PotentialCycle<Dim, T>::boundStep(const Mask& t
     if (!branchFree::lane(touching, i))
     {
       if (plane.area > 0)
-        plane.frictionWork += plane.shearEnergy();
+        plane.frictionWork += endedShear(plane, i);
       if (planes_.law[i]->curve.crushing.loss > 0)
         plane.bookHysteresisDue();
       if (options_.followsPath && dt_ > 0)
