@@ -61,4 +61,5 @@ for law, dimension, dilation in itertools.product(LAWS, (2, 3), (0, 0.3)):
     case.check(f"{name}: the same with a fourth of the step", left[1], 0, 2e-4)
     exact = law in ("linear", "penalty") and not dilation
     case.check(f"{name}, path: contact remainder over the first energy", left[2], 0, 3e-4 if exact else 2e-3)
-    case.check(f"{name}, path: the same with a fourth of the step", left[3], 0, 5e-7 if exact else 2e-4)
+    case.check(f"{name}, path: the same with a fourth of the step", left[3], 0, 2e-6 if exact else 2e-4)
+case.finish()
